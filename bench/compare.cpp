@@ -1,0 +1,111 @@
+#include "bench/compare.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "scenes/play.hpp"
+
+namespace seam {
+
+namespace {
+
+struct Play {
+  const Scene* scene;
+  Join method;
+  double dt;
+  Recording recording;
+  double wall = 0.0;  // [s]
+};
+
+void perform(Play& play) {
+  const auto begin = std::chrono::steady_clock::now();
+  play.recording = seam::play(*play.scene, play.method, play.dt);
+  play.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::string description(const Play& play) {
+  return play.scene->name + " " + std::string(to_string(play.method)) + ", dt " +
+         std::to_string(play.dt * 1e3) + " ms";
+}
+
+void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  int done = 0;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < plays.size(); i = next++) try {
+        perform(plays[i]);
+        const std::lock_guard lock(mutex);
+        progress(++done, static_cast<int>(plays.size()), description(plays[i]));
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = plays.size();
+      }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < jobs; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+Run measured(const Play& full, const Play& half, const Play& dmp2) {
+  Run run;
+  run.method = full.method;
+  run.recording = full.recording;
+  run.metrics = measure(full.recording);
+  const RunMetrics finer = measure(half.recording);
+  run.torque_jump_order = jump_order(run.metrics.torque_jump_nm, finer.torque_jump_nm);
+  for (std::size_t i = 0; i < full.recording.joins.size(); ++i) {
+    run.joins.push_back(measure(full.recording, full.recording.joins[i]));
+    const JoinMetrics at_half = measure(half.recording, half.recording.joins[i]);
+    run.join_orders.push_back(jump_order(run.joins.back().torque_jump_nm, at_half.torque_jump_nm));
+  }
+  run.deviation_peak_rad = deviation_peak(full.recording, dmp2.recording);
+  run.real_time_factor = full.dt * full.recording.ticks() / full.wall;
+  return run;
+}
+
+// dmp2 is always played: it is what the others deviate from.
+std::vector<Join> with_dmp2(std::vector<Join> methods) {
+  if (std::find(methods.begin(), methods.end(), Join::dmp2) == methods.end()) methods.push_back(Join::dmp2);
+  return methods;
+}
+
+}  // namespace
+
+std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods, double dt,
+                                int jobs, const Progress& progress) {
+  const std::vector<Join> played = with_dmp2(methods);
+  std::vector<Play> plays;
+  for (const Scene& scene : scenes)
+    for (const Join method : played)
+      for (const double share : {1.0, 0.5})
+        plays.push_back({&scene, method, share * (dt > 0.0 ? dt : scene.dt), {}, 0.0});
+  perform_all(plays, jobs, progress);
+
+  const auto play_of = [&](const Scene& scene, Join method) {
+    return std::find_if(plays.begin(), plays.end(),
+                        [&](const Play& play) { return play.scene == &scene && play.method == method; });
+  };
+  std::vector<Comparison> comparisons;
+  for (const Scene& scene : scenes) {
+    const auto dmp2 = play_of(scene, Join::dmp2);
+    Comparison comparison{scene, dmp2->dt, {}};
+    for (const Join method : methods) {
+      const auto full = play_of(scene, method);
+      comparison.runs.push_back(measured(*full, *(full + 1), *dmp2));
+    }
+    comparisons.push_back(std::move(comparison));
+  }
+  return comparisons;
+}
+
+}  // namespace seam

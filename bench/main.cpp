@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <seam/error.hpp>
+
+#include "bench/columns.hpp"
+#include "bench/compare.hpp"
+#include "bench/figure.hpp"
+#include "bench/report.hpp"
+
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes;
+  std::vector<std::string> methods;
+  double dt = 0.0;  // [s] 0: the scene's own
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::string out = "results";
+};
+
+// A scene is a file, or the name of one of the project's own.
+std::string scene_file(const std::string& scene) {
+  if (std::filesystem::exists(scene) || scene.find_first_of("./") != std::string::npos) return scene;
+  return std::string(SEAM_SCENES) + "/" + scene + ".yaml";
+}
+
+std::vector<std::string> own_scenes() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SEAM_SCENES))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<seam::Scene> read_scenes(const std::vector<std::string>& names) {
+  std::vector<seam::Scene> scenes;
+  for (const std::string& name : names.empty() ? own_scenes() : names)
+    scenes.push_back(seam::Scene::read(scene_file(name)));
+  return scenes;
+}
+
+std::vector<seam::Join> read_methods(const std::vector<std::string>& names) {
+  std::vector<seam::Join> methods;
+  for (const std::string& name : names) methods.push_back(seam::join_from_name(name));
+  if (names.empty()) methods.assign(seam::all_joins.begin(), seam::all_joins.end());
+  return methods;
+}
+
+void show_progress(int done, int total, const std::string& what) {
+  if (!isatty(STDERR_FILENO)) return;
+  fmt::print(stderr, "\r\033[K{}/{} {}{}", done, total, what, done == total ? "\r\033[K" : "");
+  std::fflush(stderr);
+}
+
+void print(const seam::Comparison& comparison) {
+  fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title, comparison.dt * 1e3,
+             seam::table(comparison));
+  fmt::print("played at");
+  for (const seam::Run& run : comparison.runs)
+    fmt::print(" {} {:.0f}x{}", seam::to_string(run.method), run.real_time_factor,
+               &run == &comparison.runs.back() ? " real time\n\n" : ",");
+}
+
+void bench(const Options& options) {
+  const auto comparisons = seam::compare(read_scenes(options.scenes), read_methods(options.methods), options.dt,
+                                         options.jobs, show_progress);
+  seam::write_results(comparisons, SEAM_VERSION, options.out);
+  for (const seam::Comparison& comparison : comparisons) {
+    print(comparison);
+    seam::draw_figures(comparison, options.out);
+  }
+  fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n", options.out);
+}
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("--dt", options.dt, "Bullet's tick [s] (default: the scene's)")->check(CLI::Range(1e-6, 0.1));
+  command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_option("--out", options.out, "folder for the results")->capture_default_str();
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app{"seam: movement primitives on a Bullet arm, joined without a step in torque"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", SEAM_VERSION);
+
+  CLI::App& compare = *app.add_subcommand("bench", "play scenes with every method and compare");
+  compare.add_option("scenes", options.scenes, "scene files, or names of seam's own (default: all of those)");
+  compare.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3 (default: all)");
+  add_common(compare, options);
+
+  CLI::App& single = *app.add_subcommand("run", "play one scene with one method");
+  single.add_option("scene", options.scenes, "scene file, or name of one of seam's own")->required()->expected(1);
+  single.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3")->required()->expected(1);
+  add_common(single, options);
+
+  try {
+    app.parse(argc, argv);
+    bench(options);
+    return 0;
+  } catch (const CLI::Success& shown) {
+    return app.exit(shown);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "seam: {} (see seam --help)\n", error.what());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "seam: {}\n", error.what());
+  }
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run(argc, argv); }

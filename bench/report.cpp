@@ -1,0 +1,71 @@
+#include "bench/report.hpp"
+
+#include <filesystem>
+
+#include <LinearMath/btScalar.h>
+#include <nlohmann/json.hpp>
+
+#include <seam/error.hpp>
+#include <seam/table.hpp>
+
+#include "bench/columns.hpp"
+
+namespace seam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json joins_of(const Run& run) {
+  Json joins = Json::array();
+  for (std::size_t i = 0; i < run.joins.size(); ++i) {
+    const JoinMetrics& join = run.joins[i];
+    joins.push_back({{"time", join.time},
+                     {"metrics",
+                      {{"torque_jump_nm", join.torque_jump_nm},
+                       {"torque_jump_percent", join.torque_jump_percent},
+                       {"torque_jump_order", run.join_orders[i]},
+                       {"acceleration_jump_rad_s2", join.acceleration_jump_rad_s2}}}});
+  }
+  return joins;
+}
+
+Json summary(const std::vector<Comparison>& comparisons, const std::string& seam_version) {
+  Json runs = Json::array();
+  for (const Comparison& comparison : comparisons)
+    for (const Run& run : comparison.runs) {
+      Json metrics;
+      for (const Column& column : columns()) metrics[column.name] = column.of(run);
+      runs.push_back({{"scene", comparison.scene.name},
+                      {"method", to_string(run.method)},
+                      {"dt", comparison.dt},
+                      {"seed", 0},
+                      {"joins", joins_of(run)},
+                      {"metrics", metrics}});
+    }
+  return {{"format", 1},
+          {"versions", {{"seam", seam_version}, {"bullet", BT_BULLET_VERSION}}},
+          {"runs", runs}};
+}
+
+void make_folder(const std::string& dir) {
+  std::error_code status;
+  std::filesystem::create_directories(dir, status);
+  if (status) throw Error(dir, "cannot be made: " + status.message());
+}
+
+}  // namespace
+
+void write_results(const std::vector<Comparison>& comparisons, const std::string& seam_version,
+                   const std::string& dir) {
+  for (const Comparison& comparison : comparisons) {
+    const std::string folder = dir + "/" + comparison.scene.name;
+    make_folder(folder);
+    for (const Run& run : comparison.runs)
+      run.recording.write(folder + "/" + std::string(to_string(run.method)) + ".csv");
+  }
+  make_folder(dir);
+  write_whole(dir + "/summary.json", summary(comparisons, seam_version).dump(2) + "\n");
+}
+
+}  // namespace seam

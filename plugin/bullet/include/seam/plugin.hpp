@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+class btDynamicsWorld;
+class btMultiBodyDynamicsWorld;
+
+namespace seam {
+
+class Controller;
+
+/// Calls `pre_tick` of any number of controllers before each of a world's ticks, substeps included.
+///
+/// A Bullet world has one pre-tick slot and one user pointer, and the plugin takes both
+/// (`setInternalTickCallback(…, isPreTick = true)`). An app that needs them calls `Controller::pre_tick` from its own
+/// callback and leaves the plugin out. The world is borrowed; a controller may go before or after the plugin.
+class Plugin {
+ public:
+  explicit Plugin(btMultiBodyDynamicsWorld& world);
+  Plugin(const Plugin&) = delete;
+  Plugin& operator=(const Plugin&) = delete;
+  ~Plugin();
+
+  /// Controllers are called in the order in which they were added; adding one twice does nothing.
+  void add(Controller& controller);
+  void remove(Controller& controller) noexcept;
+
+ private:
+  static void pre_tick(btDynamicsWorld* world, double dt);
+
+  btMultiBodyDynamicsWorld& world_;
+  std::vector<Controller*> controllers_;
+};
+
+}  // namespace seam

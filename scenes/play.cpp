@@ -1,0 +1,64 @@
+#include "scenes/play.hpp"
+
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <seam/bullet.hpp>
+
+#include "scenes/world.hpp"
+
+namespace seam {
+
+namespace {
+
+Recording room_for(const Scene& scene, int ticks) {
+  std::vector<std::string> names;
+  Eigen::VectorXd effort(scene.robot.dof());
+  for (const Joint& joint : scene.robot.joints) {
+    effort(static_cast<Eigen::Index>(names.size())) = joint.effort;
+    names.push_back(joint.name);
+  }
+  return {std::move(names), std::move(effort), ticks};
+}
+
+void record(const Controller::Tick& tick, double time, Eigen::Index row, Recording& recording) {
+  recording.time(row) = time;
+  recording.running(row) = tick.running;
+  recording.ref.row(row) = tick.reference.position;
+  recording.ref_vel.row(row) = tick.reference.velocity;
+  recording.ref_acc.row(row) = tick.reference.acceleration;
+  recording.q.row(row) = tick.q;
+  recording.qd.row(row) = tick.qd;
+  recording.torque.row(row) = tick.torque;
+}
+
+std::vector<RecordedJoin> joins_of(const Sequencer& sequencer) {
+  std::vector<RecordedJoin> joins;
+  for (int i = 0; i < sequencer.joins(); ++i) {
+    const JoinEvent& event = sequencer.join(i);
+    joins.push_back({event.time, event.primitive,
+                     (event.acceleration_after - event.acceleration_before).cwiseAbs().maxCoeff()});
+  }
+  return joins;
+}
+
+}  // namespace
+
+Recording play(const Scene& scene, Join method, double dt) {
+  World world;
+  Robot robot(scene.robot, *world);
+  robot.reset(scene.start, Eigen::VectorXd::Zero(robot.dof()));
+  Controller controller(robot, scene.sequence, method, scene.control);
+  Plugin plugin(*world);
+  plugin.add(controller);
+
+  const int ticks = scene.ticks(dt);
+  Recording recording = room_for(scene, ticks);
+  for (int k = 0; k < ticks; ++k) {
+    world->stepSimulation(dt, 0);
+    record(controller.last_tick(), k * dt, k, recording);
+  }
+  recording.joins = joins_of(controller.sequencer());
+  return recording;
+}
+
+}  // namespace seam

@@ -1,0 +1,50 @@
+#include <seam/propagator.hpp>
+
+#include <gtest/gtest.h>
+
+namespace seam {
+namespace {
+
+// Critically damped, unforced, r = g: e(t) = (e₀ + (ė₀ + ωe₀)t)·exp(−ωt) with ω = √K/τ.
+TEST(Propagator, MatchesTheClosedFormOfACriticallyDampedSpring) {
+  const Gains gains = Gains::critical(200.0);
+  for (const double tau : {0.3, 1.0, 4.0})
+    for (const double dt : {1e-4, 1e-2, 0.5, 20.0}) {
+      const Propagator step(gains, tau, dt);
+      const double w = std::sqrt(200.0) / tau;
+      const Eigen::Vector3d e = step.Phi * Eigen::Vector3d(0.7, -1.3, 0.0);
+      const double decay = std::exp(-w * dt);
+      EXPECT_NEAR(e(0), (0.7 + (-1.3 + w * 0.7) * dt) * decay, 1e-13);
+      EXPECT_NEAR(e(1), (-1.3 - w * (-1.3 + w * 0.7) * dt) * decay, 2e-12);
+    }
+}
+
+TEST(Propagator, TwoHalfStepsMakeAWhole) {
+  const Propagator whole(Gains::paper(), 0.8, 0.02);
+  const Propagator half(Gains::paper(), 0.8, 0.01);
+  EXPECT_LT((half.Phi * half.Phi - whole.Phi).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(Propagator, AConstantForcingMovesTheEquilibriumByItsShareOfK) {
+  const Gains gains = Gains::critical(150.0);
+  const Propagator step(gains, 1.0, 100.0);
+  const Eigen::Vector3d e = step.Gamma * Eigen::Vector3d::Ones();
+  EXPECT_NEAR(e(0), 1.0 / 150.0, 1e-14);
+  EXPECT_NEAR(e(1), 0.0, 1e-13);
+}
+
+// y(t) = t²/2 solves τ²ÿ = −Ky − Dτẏ + f with the quadratic f = τ² + Dτt + Kt²/2: no error at any step length.
+TEST(Propagator, IsExactForAQuadraticForcing) {
+  const Gains gains = Gains::paper();
+  const double tau = 0.7;
+  const auto f = [&](double t) { return tau * tau + gains.D * tau * t + 0.5 * gains.K * t * t; };
+  for (const double dt : {1e-3, 0.05, 1.0}) {
+    const Propagator step(gains, tau, dt);
+    const Eigen::Vector3d e = step.Gamma * Eigen::Vector3d(f(0.0), f(0.5 * dt), f(dt));
+    EXPECT_NEAR(e(0), 0.5 * dt * dt, 1e-13);
+    EXPECT_NEAR(e(1), dt, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,393 @@
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/temp_folder.hpp"
+#include <seam/error.hpp>
+#include <seam/robot_model.hpp>
+
+namespace {
+
+using Eigen::Vector3d;
+using seam::RobotModel;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const char* const mass =
+    R"(<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)";
+
+std::string robot(const std::string& content) {
+  return "<robot name=\"r\">" + content + "</robot>";
+}
+
+std::string link(const std::string& name, const std::string& content = mass) {
+  return "<link name=\"" + name + "\">" + content + "</link>";
+}
+
+std::string joint(
+    const std::string& name, const std::string& type, const std::string& parent,
+    const std::string& child,
+    const std::string& content = R"(<limit lower="-1" upper="1" effort="5" velocity="2"/>)") {
+  return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
+         "\"/><child link=\"" + child + "\"/>" + content + "</joint>";
+}
+
+/// A base `a` and a link `b` behind the joint `j`.
+std::string one_joint(const std::string& content, const std::string& type = "revolute") {
+  return robot(link("a") + link("b") + joint("j", type, "a", "b", content));
+}
+
+std::string inertial_element(const std::string& mass_value, const std::string& ixx,
+                             const std::string& iyy, const std::string& izz) {
+  return "<inertial><mass value=\"" + mass_value + "\"/><inertia ixx=\"" + ixx +
+         "\" ixy=\"0\" ixz=\"0\" iyy=\"" + iyy + "\" iyz=\"0\" izz=\"" + izz + "\"/></inertial>";
+}
+
+/// A link `a` whose inertial element says this.
+std::string inertial(const std::string& mass_value, const std::string& ixx, const std::string& iyy,
+                     const std::string& izz) {
+  return robot(link("a", inertial_element(mass_value, ixx, iyy, izz)));
+}
+
+std::string shape(const std::string& kind, const std::string& geometry) {
+  return robot(link("a", "<" + kind + "><geometry>" + geometry + "</geometry></" + kind + ">"));
+}
+
+RobotModel read(const std::string& text, const std::vector<std::string>& package_path = {}) {
+  const TempFolder folder;
+  return RobotModel::read(folder.write("x.urdf", text), package_path);
+}
+
+/// The message of the refusal, with the test's own folder taken off.
+std::string refusal(const std::string& text) {
+  const TempFolder folder;
+  std::string message = "accepted";
+  try {
+    RobotModel::read(folder.write("x.urdf", text));
+  } catch (const seam::Error& error) {
+    message = error.what();
+  }
+  for (std::size_t at; (at = message.find(folder.path(""))) != std::string::npos;) {
+    message.erase(at, folder.path("").size());
+  }
+  return message;
+}
+
+struct Refused {
+  const char* name;
+  std::string text;
+  std::string message;
+};
+void PrintTo(const Refused& refused, std::ostream* out) {
+  *out << refused.name;
+}
+
+class RobotModelRefuses : public testing::TestWithParam<Refused> {};
+
+TEST_P(RobotModelRefuses, InOneLineThatSaysWhy) {
+  EXPECT_EQ(refusal(GetParam().text), GetParam().message);
+}
+
+const char* const limits = R"(<limit lower="-1" upper="1" effort="5" velocity="2"/>)";
+
+const Refused refusals[] = {
+    {"EmptyFile", "  \n", "x.urdf: is empty"},
+    {"NotXml", "<robot name=\"r\">\n<link name=\"a\">\n</robot>",
+     "x.urdf:2: not well-formed XML (XML_ERROR_MISMATCHED_ELEMENT)"},
+    {"NoXmlAtAll", "mass: 3", "x.urdf:1: not well-formed XML (XML_ERROR_PARSING_TEXT)"},
+    {"OtherRoot", "<sdf/>", "x.urdf: root element is <sdf>, must be <robot>"},
+    {"NoName", "<robot/>", "x.urdf: No name given for the robot."},
+    {"NoLink", robot(""), "x.urdf: No link elements found in urdf file"},
+    {"LinkTwice", robot(link("a") + link("a")), "x.urdf: link 'a' is not unique."},
+    {"TwoRoots", robot(link("a") + link("b")),
+     "x.urdf: Failed to find root link: Two root links found: [a] and [b]"},
+    {"JointToNowhere", robot(link("a") + joint("j", "fixed", "a", "b")),
+     "x.urdf: Failed to build tree: child link [b] of joint [j] not found"},
+    {"Ring", robot(link("a") + joint("j", "fixed", "a", "a")),
+     "x.urdf: Failed to find root link: No root link found. The robot xml is not a valid tree."},
+    {"RingAside",
+     robot(link("a") + link("b") + link("c") + joint("j", "fixed", "b", "c") +
+           joint("k", "fixed", "c", "b")),
+     "x.urdf: link \"b\": is not joined to the root link \"a\""},
+    {"TwoParents",
+     robot(link("a") + link("b") + link("c") + joint("i", "fixed", "a", "b") +
+           joint("j", "fixed", "a", "c") + joint("k", "fixed", "b", "c")),
+     "x.urdf: link \"c\": is the child of more than one joint, must be of one"},
+
+    {"MassNegative", inertial("-1", "1", "1", "1"), "x.urdf: link \"a\": mass -1 kg, must be > 0"},
+    {"MassZero", inertial("0", "1", "1", "1"), "x.urdf: link \"a\": mass 0 kg, must be > 0"},
+    {"MassNan", inertial("nan", "1", "1", "1"),
+     "x.urdf: Inertial: mass [nan] is not a float; Could not parse inertial element for Link [a]"},
+    {"MassInfinite", inertial("inf", "1", "1", "1"),
+     "x.urdf: Inertial: mass [inf] is not a float; Could not parse inertial element for Link [a]"},
+    {"MassTooLarge", inertial("1e999", "1", "1", "1"),
+     "x.urdf: Inertial: mass [1e999] is not a float; Could not parse inertial element for Link "
+     "[a]"},
+    {"MassWithComma", inertial("1,5", "1", "1", "1"),
+     "x.urdf: Inertial: mass [1,5] is not a float; Could not parse inertial element for Link [a]"},
+    {"MassMissing", robot(link("a", "<inertial/>")),
+     "x.urdf: Inertial element must have a mass element; Could not parse inertial element for Link "
+     "[a]"},
+    {"InertiaNan", inertial("1", "nan", "1", "1"),
+     "x.urdf: Inertial: inertia element ixx is not a valid double; Could not parse inertial "
+     "element for Link [a]"},
+    {"InertiaNegative", inertial("1", "-0.1", "1", "1"),
+     "x.urdf: link \"a\": inertia has the principal moments -0.1, 1, 1 kg m^2, must all be > 0"},
+    {"InertiaSingular", inertial("1", "0", "1", "1"),
+     "x.urdf: link \"a\": inertia has the principal moments 0, 1, 1 kg m^2, must all be > 0"},
+    {"InertiaImpossible", inertial("1", "0.1", "0.5", "0.2"),
+     "x.urdf: link \"a\": inertia has the principal moments 0.1, 0.2, 0.5 kg m^2, none may exceed "
+     "the sum of the other two"},
+    {"OriginNan",
+     robot(link(
+         "a",
+         R"(<visual><origin xyz="0 nan 0"/><geometry><sphere radius="1"/></geometry></visual>)")),
+     "x.urdf: Unable to parse component [nan] to a double (while parsing a vector value); Could "
+     "not parse visual element for "
+     "Link [a]"},
+    {"MovesWithoutMass",
+     robot(link("a") + link("b", "") + link("c", "") + joint("j", "revolute", "a", "b") +
+           joint("k", "fixed", "b", "c")),
+     "x.urdf: link \"b\": has no mass, nor has any link fixed to it, but joint \"j\" moves it: "
+     "must be > 0"},
+
+    {"Floating", one_joint("", "floating"),
+     "x.urdf: joint \"j\": is a floating joint, must be revolute, continuous, prismatic or fixed"},
+    {"Planar", one_joint("", "planar"),
+     "x.urdf: joint \"j\": is a planar joint, must be revolute, continuous, prismatic or fixed"},
+    {"Helical", one_joint("", "helical"),
+     "x.urdf: Joint [j] has no known type [helical]; joint xml is not initialized correctly"},
+    {"Mimic",
+     robot(link("a") + link("b") + link("c") + joint("i", "revolute", "a", "b") +
+           joint("j", "revolute", "b", "c", std::string(limits) + "<mimic joint=\"i\"/>")),
+     "x.urdf: joint \"j\": mimics joint \"i\", must move by itself"},
+    {"AxisZero", one_joint(std::string(limits) + "<axis xyz=\"0 0 0\"/>"),
+     "x.urdf: joint \"j\": axis 0 0 0, must not be zero"},
+    {"AxisWithoutXyz", one_joint(std::string(limits) + "<axis/>"),
+     "x.urdf: joint \"j\": axis 0 0 0, must not be zero"},
+    {"LimitMissing", one_joint(""),
+     "x.urdf: Joint [j] is of type REVOLUTE but it does not specify limits; joint xml is not "
+     "initialized correctly"},
+    {"EffortMissing", one_joint(R"(<limit velocity="1"/>)"),
+     "x.urdf: joint limit: no effort; Could not parse limit element for joint [j]; joint xml is "
+     "not initialized correctly"},
+    {"SpeedMissing", one_joint(R"(<limit effort="1"/>)"),
+     "x.urdf: joint limit: no velocity; Could not parse limit element for joint [j]; joint xml is "
+     "not initialized correctly"},
+    {"EffortNegative", one_joint(R"(<limit effort="-1" velocity="1"/>)"),
+     "x.urdf: joint \"j\": effort limit -1 N m, must be >= 0"},
+    {"SpeedNegative", one_joint(R"(<limit effort="1" velocity="-0.5"/>)", "prismatic"),
+     "x.urdf: joint \"j\": velocity limit -0.5 m/s, must be >= 0"},
+    {"LimitsCrossed", one_joint(R"(<limit lower="1" upper="0.5" effort="1" velocity="1"/>)"),
+     "x.urdf: joint \"j\": lower limit 1 rad, must be <= upper limit 0.5 rad"},
+
+    {"Capsule", shape("collision", R"(<capsule radius="1" length="1"/>)"),
+     "x.urdf: Unknown geometry type 'capsule'; Could not parse collision element for Link [a]"},
+    {"NoGeometry", robot(link("a", "<visual/>")),
+     "x.urdf: Could not parse visual element for Link [a]"},
+    {"BoxFlat", shape("collision", R"(<box size="1 0 1"/>)"),
+     "x.urdf: link \"a\": collision: box of size 1 0 1 m, must all be > 0"},
+    {"CylinderThin", shape("visual", R"(<cylinder radius="0" length="1"/>)"),
+     "x.urdf: link \"a\": visual: cylinder of radius 0 m and length 1 m, must be > 0"},
+    {"SphereNegative", shape("visual", R"(<sphere radius="-1"/>)"),
+     "x.urdf: link \"a\": visual: sphere of radius -1 m, must be > 0"},
+    {"MeshMissing", shape("visual", R"(<mesh filename="no.obj"/>)"),
+     "x.urdf: link \"a\": visual: mesh \"no.obj\" not found, looked for no.obj"},
+    {"MeshWithoutPackage", shape("visual", R"(<mesh filename="package://none/no.obj"/>)"),
+     "x.urdf: link \"a\": visual: mesh \"package://none/no.obj\" not found, no folder to look in"},
+    {"MeshFromTheNet", shape("visual", R"(<mesh filename="http://x/no.obj"/>)"),
+     "x.urdf: link \"a\": visual: mesh \"http://x/no.obj\" not found, no folder to look in"},
+    {"MeshIsAFolder", shape("visual", R"(<mesh filename="."/>)"),
+     "x.urdf: link \"a\": visual: mesh \".\" not found, looked for "},
+    {"MeshWithoutScale", shape("visual", R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),
+     "x.urdf: link \"a\": visual: mesh \"x.urdf\" of scale 1 0 1, must not be 0"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Urdf, RobotModelRefuses, testing::ValuesIn(refusals),
+                         [](const auto& refused) { return refused.param.name; });
+
+std::string refusal_of_path(const std::string& path) {
+  try {
+    RobotModel::read(path);
+  } catch (const seam::Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(RobotModel, RefusesWhatIsNotAFile) {
+  const TempFolder folder;
+  EXPECT_EQ(refusal_of_path("/no/such.urdf"), "/no/such.urdf: no such file");
+  EXPECT_EQ(refusal_of_path(folder.path("")),
+            folder.path("") + ": is a folder, must be a URDF file");
+}
+
+TEST(RobotModel, PrintsNothingWhenItRefuses) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  refusal(robot(""));
+  EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(RobotModel, ReadsThePa10) {
+  const auto model = RobotModel::read(SEAM_ASSETS "/pa10/pa10.urdf");
+  const std::vector<std::string> names = {"S1", "S2", "S3", "E1", "E2", "W1", "W2"};
+  ASSERT_EQ(model.dof(), 7);
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_EQ(model.joint(names[static_cast<std::size_t>(i)]), i);
+    EXPECT_EQ(model.joints[static_cast<std::size_t>(i)].parent, i - 1);
+  }
+}
+
+TEST(RobotModel, NumbersBranchesAsTheFileDoes) {
+  const auto model =
+      read(robot(link("a") + link("b") + link("c") + link("d") + joint("z", "revolute", "a", "b") +
+                 joint("m", "revolute", "a", "c") + joint("k", "revolute", "b", "d")));
+  EXPECT_EQ(model.joint("z"), 0);
+  EXPECT_EQ(model.joint("k"), 1);
+  EXPECT_EQ(model.joint("m"), 2);
+  EXPECT_EQ(model.joints[1].parent, 0);
+  EXPECT_EQ(model.joints[2].parent, -1);
+}
+
+TEST(RobotModel, NamesWhatThereIsWhenAskedForWhatIsNot) {
+  const auto model = RobotModel::read(SEAM_TEST_DATA "/planar_arm.urdf");
+  try {
+    model.joint("wrist");
+    FAIL();
+  } catch (const seam::Error& error) {
+    EXPECT_STREQ(error.what(), "robot \"planar_arm\": no joint \"wrist\", it has shoulder elbow");
+  }
+  try {
+    model.frame("hand");
+    FAIL();
+  } catch (const seam::Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "robot \"planar_arm\": no link \"hand\", it has base upper lower tool");
+  }
+}
+
+// Two spheres of 2 kg, 0.1 kg m² each, 1 m apart on x: the pair has 2·(0.1 + 2·0.5²) about y and z.
+TEST(RobotModel, MergesFixedLinksByTheParallelAxisTheorem) {
+  const std::string ball =
+      R"(<inertial><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>)";
+  const auto model =
+      read(robot(link("a") + link("b", ball) + link("c", ball) + joint("j", "revolute", "a", "b") +
+                 joint("k", "fixed", "b", "c", R"(<origin xyz="1 0 0" rpy="0.3 0.2 0.1"/>)")));
+  ASSERT_EQ(model.dof(), 1);
+  const seam::Inertial& pair = model.bodies[0].inertial;
+  EXPECT_DOUBLE_EQ(pair.mass, 4.0);
+  EXPECT_LE((pair.com - Vector3d(0.5, 0.0, 0.0)).norm(), 1e-15);
+  const Eigen::Matrix3d expected = Vector3d(0.2, 1.2, 1.2).asDiagonal();
+  EXPECT_LE((pair.inertia - expected).norm(), 1e-15);
+  EXPECT_EQ(model.frame("c").body, 0);
+  EXPECT_LE((model.frame("c").X_body_frame.translation() - Vector3d(1.0, 0.0, 0.0)).norm(), 1e-15);
+}
+
+TEST(RobotModel, TurnsInertiaGivenInARotatedFrame) {
+  const auto model = read(robot(
+      link("a") +
+      link("b", R"(<inertial><origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/><mass value="1"/>
+                               <inertia ixx="1" ixy="0.1" ixz="0" iyy="2" iyz="0" izz="2.5"/></inertial>)") +
+      joint("j", "revolute", "a", "b")));
+  Eigen::Matrix3d expected;
+  expected << 2.0, -0.1, 0.0, -0.1, 1.0, 0.0, 0.0, 0.0, 2.5;
+  EXPECT_LE((model.bodies[0].inertial.inertia - expected).norm(), 1e-15);
+  EXPECT_LE((model.bodies[0].inertial.about_origin() - expected -
+             Eigen::Matrix3d(Vector3d(1, 1, 0).asDiagonal()))
+                .norm(),
+            1e-15);
+}
+
+TEST(RobotModel, TakesAnInertialOfZerosForNone) {
+  EXPECT_EQ(read(inertial("0", "0", "0", "0")).base.inertial.mass, 0.0);
+  EXPECT_EQ(refusal(robot(link("a") + link("b", inertial_element("0", "0", "0", "0")) +
+                          joint("j", "revolute", "a", "b"))),
+            "x.urdf: link \"b\": has no mass, nor has any link fixed to it, but joint \"j\" moves "
+            "it: must be > 0");
+}
+
+TEST(RobotModel, AcceptsPlatesAndRods) {
+  EXPECT_NO_THROW(read(inertial("1", "0.1", "0.2", "0.3")));
+  EXPECT_NO_THROW(read(inertial("1", "1e-9", "0.2", "0.2")));
+}
+
+TEST(RobotModel, LeavesAContinuousJointWithoutLimits) {
+  const auto bare = read(one_joint("", "continuous")).joints[0];
+  EXPECT_EQ(bare.lower, -infinity);
+  EXPECT_EQ(bare.upper, infinity);
+  EXPECT_EQ(bare.speed, infinity);
+  EXPECT_EQ(bare.effort, infinity);
+  const auto limited = read(one_joint(limits, "continuous")).joints[0];
+  EXPECT_EQ(limited.upper, infinity);
+  EXPECT_EQ(limited.speed, 2.0);
+  EXPECT_EQ(limited.effort, 5.0);
+}
+
+TEST(RobotModel, MakesAxesUnitAndTakesUrdfsDefault) {
+  EXPECT_EQ(read(one_joint(std::string(limits) + "<axis xyz=\"0 0 -4\"/>")).joints[0].axis,
+            Vector3d(0, 0, -1));
+  EXPECT_EQ(read(one_joint(limits)).joints[0].axis, Vector3d(1, 0, 0));
+}
+
+TEST(RobotModel, KeepsShapesWithTheirColours) {
+  const auto model = read(robot(
+      R"(<material name="red"><color rgba="1 0 0 0.5"/></material>)" +
+      link(
+          "a",
+          R"(<visual><origin xyz="0 0 1"/><geometry><box size="1 2 3"/></geometry><material name="red"/></visual>
+                                             <visual><geometry><cylinder radius="1" length="4"/></geometry><material name="unknown"/></visual>)")));
+  ASSERT_EQ(model.base.visuals.size(), 2U);
+  const seam::Geometry& box = model.base.visuals[0];
+  EXPECT_EQ(box.type, seam::Geometry::Type::box);
+  EXPECT_EQ(box.size, Vector3d(1, 2, 3));
+  EXPECT_EQ(box.X_body_shape.translation(), Vector3d(0, 0, 1));
+  EXPECT_TRUE(box.has_colour);
+  EXPECT_EQ(box.colour, Eigen::Vector4d(1, 0, 0, 0.5));
+  EXPECT_EQ(model.base.visuals[1].size, Vector3d(1, 0, 4));
+  EXPECT_FALSE(model.base.visuals[1].has_colour);
+}
+
+class MeshNames : public testing::Test {
+ protected:
+  MeshNames() {
+    folder_.write("arm/meshes/m.obj", "own");
+    folder_.write("packages/tool/m.obj", "package");
+    folder_.write("ros/tool/ros.obj", "ros");
+  }
+  ~MeshNames() override { unsetenv("ROS_PACKAGE_PATH"); }
+
+  /// Where the name leads, from arm/urdf/x.urdf, relative to the test's folder.
+  std::string found(const std::string& name,
+                    const std::vector<std::string>& package_path = {}) const {
+    const std::string file =
+        folder_.write("arm/urdf/x.urdf", shape("visual", "<mesh filename=\"" + name + "\"/>"));
+    const auto model = RobotModel::read(file, package_path);
+    return std::filesystem::relative(model.base.visuals[0].mesh, folder_.path("")).string();
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(MeshNames, AreRelativeToTheUrdf) {
+  EXPECT_EQ(found("../meshes/m.obj"), "arm/meshes/m.obj");
+}
+TEST_F(MeshNames, MayBeFileUris) {
+  EXPECT_EQ(found("file://" + folder_.path("arm/meshes/m.obj")), "arm/meshes/m.obj");
+}
+TEST_F(MeshNames, FindAPackageAboveTheUrdf) {
+  EXPECT_EQ(found("package://arm/meshes/m.obj"), "arm/meshes/m.obj");
+}
+TEST_F(MeshNames, FindAPackageInTheGivenFolders) {
+  EXPECT_EQ(found("package://tool/m.obj", {folder_.path("packages")}), "packages/tool/m.obj");
+  EXPECT_EQ(found("package://tool/m.obj", {folder_.path("packages/tool")}), "packages/tool/m.obj");
+}
+TEST_F(MeshNames, FindAPackageInRosPackagePath) {
+  setenv("ROS_PACKAGE_PATH", (folder_.path("none") + ":" + folder_.path("ros")).c_str(), 1);
+  EXPECT_EQ(found("package://tool/ros.obj", {folder_.path("packages")}), "ros/tool/ros.obj");
+}
+
+}  // namespace
