@@ -37,13 +37,18 @@ std::size_t width(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
 }
 
+std::string cell(const Column& column, const Run& run) {
+  const std::string text = fmt::format(fmt::runtime(column.format), column.of(run));
+  const bool minus_zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
+  return minus_zero ? text.substr(1) : text;
+}
+
 std::vector<std::vector<std::string>> cells(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows(1, {"method"});
   for (const Column& column : columns()) rows[0].push_back(fmt::format("{} [{}]", column.heading, column.unit));
   for (const Run& run : comparison.runs) {
     std::vector<std::string> row{std::string(to_string(run.method))};
-    for (const Column& column : columns())
-      row.push_back(fmt::format(fmt::runtime(column.format), column.of(run)));
+    for (const Column& column : columns()) row.push_back(cell(column, run));
     rows.push_back(std::move(row));
   }
   return rows;

@@ -76,7 +76,7 @@ std::string preamble(const Comparison& comparison, const std::string& picture, i
       "set datafile columnheaders\n"
       "set grid lc rgb '#dddddd'\n"
       "set border 3\nset tics nomirror\n"
-      "set lmargin 11\nset rmargin 3\nset key tmargin right horizontal\n",
+      "set lmargin 11\nset rmargin 3\nset key tmargin right horizontal samplen 2 width -3\n",
       width, height, picture);
   for (const RecordedJoin& join : comparison.runs.front().recording.joins)
     text += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n", join.time);

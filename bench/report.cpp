@@ -65,6 +65,9 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
       run.recording.write(folder + "/" + std::string(to_string(run.method)) + ".csv");
   }
   make_folder(dir);
+  std::string tables;
+  for (const Comparison& comparison : comparisons) tables += (tables.empty() ? "" : "\n") + table(comparison);
+  write_whole(dir + "/table.md", tables);
   write_whole(dir + "/summary.json", summary(comparisons, seam_version).dump(2) + "\n");
 }
 

@@ -62,8 +62,10 @@ void read_sequence(const YamlEntry& entry, const std::map<std::string, Primitive
     const auto primitive = primitives.find(play.text());
     if (primitive == primitives.end()) play.fail("\"" + play.text() + "\", is not among the primitives");
     at_key(play, [&] { scene.sequence.then(primitive->second); });
-    if (const auto until = step.find("until"))
-      at_key(*until, [&] { scene.sequence.until(read_switch(*until)); });
+    if (const auto until = step.find("until")) {
+      const Switch when = read_switch(*until);
+      at_key(*until, [&] { scene.sequence.until(when); });
+    }
     scene.primitive_names.push_back(play.text());
   }
 }
