@@ -1,0 +1,38 @@
+# A thin front over apt and the CMake presets: each line can be typed by hand instead. `make help` lists the targets.
+packages := g++ cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-dev libbullet-extras-dev liburdfdom-dev \
+  libconsole-bridge-dev libtinyxml2-dev libassimp-dev zlib1g-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgtest-dev \
+  libgmock-dev libbenchmark-dev liborocos-kdl-dev $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
+tools := clang-format clang-tidy
+sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
+
+.PHONY: help bench test debug asan tsan format tidy meshes readme clean
+.PRECIOUS: build/%/build.ninja
+help:                                  ## this list
+	@sed -nE 's/^([a-z]+( [a-z]+)*): .*## /\1:\t/p' Makefile | expand -t 20
+bench: build/release/build.ninja       ## build, run every scene with every method, print the comparison, fill results/
+	cmake --build --preset release
+	build/release/bench/seam bench --out results
+test: build/release/build.ninja        ## build and run every test
+	cmake --build --preset release
+	ctest --preset release
+debug asan tsan: %: build/%/build.ninja ## build and run every test with assertions; address and UB, or thread, sanitizer
+	cmake --build --preset $@
+	ctest --preset $@
+format: build/tools                    ## check the layout of the C++ sources (FIX=1: put it right)
+	@clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources)
+tidy: build/tools build/release/build.ninja ## check the C++ sources with clang-tidy
+	run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$'
+meshes:                                ## make the arm's meshes anew (needs Node.js)
+	cd assets/pa10/source && npm ci && npm run meshes
+readme: bench                          ## put the bench's figures into README.md
+	bash bench/readme.sh
+clean:                                 ## remove what was built
+	rm -rf build results
+
+build/packages build/tools: Makefile
+	@sh .ci/install-packages.sh $@.log $($(@F)) && mkdir -p build && touch $@
+build/setup: build/packages
+	@sh plugin/cmake/bullet-headers.sh build/bullet-headers && touch $@
+build/%/build.ninja: build/setup CMakePresets.json
+	cmake --preset $*
+	@touch $@
