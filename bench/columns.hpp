@@ -7,13 +7,13 @@
 
 namespace seam {
 
-/// One measured figure of a run: its name in summary.json, its heading in the table, and where it is found.
-/// A new metric is one new line in `columns()`.
+/// One measured figure of a run: its name in summary.json, its heading in the table, and where it
+/// is found. A new metric is one new line in `columns()`.
 struct Column {
   const char* name;     // with its unit, as in summary.json
   const char* heading;  // as printed
   const char* unit;
-  const char* format;   // of fmt
+  const char* format;  // of fmt
   double (*of)(const Run& run);
 };
 

@@ -75,14 +75,15 @@ Run measured(const Play& full, const Play& half, const Play& dmp2) {
 
 // dmp2 is always played: it is what the others deviate from.
 std::vector<Join> with_dmp2(std::vector<Join> methods) {
-  if (std::find(methods.begin(), methods.end(), Join::dmp2) == methods.end()) methods.push_back(Join::dmp2);
+  if (std::find(methods.begin(), methods.end(), Join::dmp2) == methods.end())
+    methods.push_back(Join::dmp2);
   return methods;
 }
 
 }  // namespace
 
-std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods, double dt,
-                                int jobs, const Progress& progress) {
+std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
+                                double dt, int jobs, const Progress& progress) {
   const std::vector<Join> played = with_dmp2(methods);
   std::vector<Play> plays;
   for (const Scene& scene : scenes)
@@ -92,8 +93,9 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
   perform_all(plays, jobs, progress);
 
   const auto play_of = [&](const Scene& scene, Join method) {
-    return std::find_if(plays.begin(), plays.end(),
-                        [&](const Play& play) { return play.scene == &scene && play.method == method; });
+    return std::find_if(plays.begin(), plays.end(), [&](const Play& play) {
+      return play.scene == &scene && play.method == method;
+    });
   };
   std::vector<Comparison> comparisons;
   for (const Scene& scene : scenes) {

@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "scenes/scene.hpp"
 #include <seam/join.hpp>
 #include <seam/metrics.hpp>
 #include <seam/recording.hpp>
-
-#include "scenes/scene.hpp"
 
 namespace seam {
 
@@ -18,10 +17,10 @@ struct Run {
   Recording recording;
   RunMetrics metrics;
   std::vector<JoinMetrics> joins;
-  std::vector<double> join_orders;   // of the torque jump at each join
-  double torque_jump_order = 0.0;    // of the worst join
-  double deviation_peak_rad = 0.0;   // [rad] of the reference from dmp2's
-  double real_time_factor = 0.0;     // simulated time over wall time; not the same twice
+  std::vector<double> join_orders;  // of the torque jump at each join
+  double torque_jump_order = 0.0;   // of the worst join
+  double deviation_peak_rad = 0.0;  // [rad] of the reference from dmp2's
+  double real_time_factor = 0.0;    // simulated time over wall time; not the same twice
 };
 
 /// One scene played with several methods.
@@ -34,12 +33,12 @@ struct Comparison {
 /// Called after each of the `total` plays has ended, from one thread at a time.
 using Progress = std::function<void(int done, int total, const std::string& what)>;
 
-/// Plays every scene with every method at dt and at dt/2 (for the order of the torque jump), on several threads; the
-/// results do not depend on how many.
+/// Plays every scene with every method at dt and at dt/2 (for the order of the torque jump), on
+/// several threads; the results do not depend on how many.
 /// @param dt    [s]; 0: each scene's own
 /// @param jobs  threads, ≥ 1
 /// @throws Error  see play
-std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods, double dt,
-                                int jobs, const Progress& progress);
+std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
+                                double dt, int jobs, const Progress& progress);
 
 }  // namespace seam

@@ -20,7 +20,8 @@ constexpr int curve_points = 1000;
 Table alone(const Primitive& primitive, double begin, double dt) {
   const int ticks = static_cast<int>(primitive.tau / dt) + 1;
   Table table{{"time"}, Eigen::MatrixXd(ticks, 1 + primitive.dimensions())};
-  table.columns.insert(table.columns.end(), primitive.coordinates.begin(), primitive.coordinates.end());
+  table.columns.insert(table.columns.end(), primitive.coordinates.begin(),
+                       primitive.coordinates.end());
   Execution execution(primitive);
   for (int k = 0; k < ticks; ++k) {
     table.values(k, 0) = begin + k * dt;
@@ -44,31 +45,37 @@ void write_primitives(const Comparison& comparison, const std::string& folder) {
   double begin = comparison.scene.sequence.start_delay();
   const auto& steps = comparison.scene.sequence.steps();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    alone(steps[i].primitive, begin, comparison.dt).write(folder + "/" + file_of(comparison.scene, i));
+    alone(steps[i].primitive, begin, comparison.dt)
+        .write(folder + "/" + file_of(comparison.scene, i));
     begin += steps[i].until.due(steps[i].primitive.tau);
   }
 }
 
 std::string style(Join method) {
   switch (method) {
-    case Join::dmp2: return "lc rgb '#d55e00' lw 2.5 dt 1";
-    case Join::dmp2a: return "lc rgb '#0072b2' lw 2.5 dt 1";
-    case Join::dmp3: return "lc rgb '#009e73' lw 2.5 dt (8,5)";
+    case Join::dmp2:
+      return "lc rgb '#d55e00' lw 2.5 dt 1";
+    case Join::dmp2a:
+      return "lc rgb '#0072b2' lw 2.5 dt 1";
+    case Join::dmp3:
+      return "lc rgb '#009e73' lw 2.5 dt (8,5)";
   }
   return "";
 }
 
 // One curve per method of a recording's column; `x` is gnuplot's.
-std::string curves(const Comparison& comparison, const std::string& x, const std::string& column, int every,
-                   const char* with) {
+std::string curves(const Comparison& comparison, const std::string& x, const std::string& column,
+                   int every, const char* with) {
   std::string text;
   for (const Run& run : comparison.runs)
-    text += fmt::format("{}'{}.csv' every {} using {}:'{}' with {} {} title '{}'", text.empty() ? "" : ", \\\n  ",
-                        to_string(run.method), every, x, column, with, style(run.method), to_string(run.method));
+    text += fmt::format("{}'{}.csv' every {} using {}:'{}' with {} {} title '{}'",
+                        text.empty() ? "" : ", \\\n  ", to_string(run.method), every, x, column,
+                        with, style(run.method), to_string(run.method));
   return text;
 }
 
-std::string preamble(const Comparison& comparison, const std::string& picture, int width, int height) {
+std::string preamble(const Comparison& comparison, const std::string& picture, int width,
+                     int height) {
   std::string text = fmt::format(
       "set terminal pngcairo size {},{} font 'DejaVu Sans,18' background rgb 'white'\n"
       "set output '{}'\n"
@@ -79,7 +86,9 @@ std::string preamble(const Comparison& comparison, const std::string& picture, i
       "set lmargin 11\nset rmargin 3\nset key tmargin right horizontal samplen 2 width -3\n",
       width, height, picture);
   for (const RecordedJoin& join : comparison.runs.front().recording.joins)
-    text += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n", join.time);
+    text += fmt::format(
+        "set arrow from {0}, graph 0 to {0}, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n",
+        join.time);
   return text;
 }
 
@@ -93,10 +102,12 @@ std::string sequencing_script(const Comparison& comparison) {
   text += "set ylabel 'each alone [rad]'\nplot ";
   for (std::size_t i = 0; i < scene.primitive_names.size(); ++i)
     if (moves(scene.sequence.steps()[i].primitive, scene.figure))
-      text += fmt::format("{}'{}' using 'time':'{}' with lines lw 2.5 lc rgb '{}' title '{}'", i ? ", \\\n  " : "",
-                          file_of(scene, i), scene.figure, i % 2 ? "#999999" : "#333333", scene.primitive_names[i]);
-  const std::pair<const char*, const char*> panels[] = {
-      {"joined position [rad]", "ref."}, {"velocity [rad/s]", "ref_vel."}, {"acceleration [rad/s²]", "ref_acc."}};
+      text += fmt::format("{}'{}' using 'time':'{}' with lines lw 2.5 lc rgb '{}' title '{}'",
+                          i ? ", \\\n  " : "", file_of(scene, i), scene.figure,
+                          i % 2 ? "#999999" : "#333333", scene.primitive_names[i]);
+  const std::pair<const char*, const char*> panels[] = {{"joined position [rad]", "ref."},
+                                                        {"velocity [rad/s]", "ref_vel."},
+                                                        {"acceleration [rad/s²]", "ref_acc."}};
   for (const auto& [label, prefix] : panels) {
     if (prefix == panels[2].second) text += "\nset xlabel 'time [s]'";
     text += fmt::format("\nset ylabel '{}'\nplot {}\n{}", label,
@@ -116,13 +127,15 @@ std::string torque_script(const Comparison& comparison) {
   std::string text = preamble(comparison, "torque.png", 1200, 520);
   text += "set multiplot layout 1,2\nset xlabel 'time [s]'\n";
   text += fmt::format("set ylabel 'torque of {} [N·m]'\nset xrange [0:{}]\nplot {}\n", scene.figure,
-                      recording.time(recording.ticks() - 1), curves(comparison, "'time'", column, every, "lines"));
-  text += "unset key\nset xlabel 'from the last join [ms], every tick'\nset ylabel ''\nunset arrow\n";
+                      recording.time(recording.ticks() - 1),
+                      curves(comparison, "'time'", column, every, "lines"));
+  text +=
+      "unset key\nset xlabel 'from the last join [ms], every tick'\nset ylabel ''\nunset arrow\n";
   text += "set arrow from 0, graph 0 to 0, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n";
   text += fmt::format("set xtics {}\nset xrange [{}:{}]\n", reach / 2.0, -reach, reach);
   const std::string from_join = fmt::format("(1e3*(column('time')-{}))", join);
-  return text +
-         fmt::format("plot {}\nunset multiplot\n", curves(comparison, from_join, column, 1, "linespoints pt 7 ps 0.8"));
+  return text + fmt::format("plot {}\nunset multiplot\n",
+                            curves(comparison, from_join, column, 1, "linespoints pt 7 ps 0.8"));
 }
 
 void draw(const std::string& folder, const std::string& script_name, const std::string& script) {
@@ -130,8 +143,9 @@ void draw(const std::string& folder, const std::string& script_name, const std::
   const std::string command =
       fmt::format("cd '{}' && gnuplot '{}' >gnuplot.log 2>&1 </dev/null", folder, script_name);
   if (std::system(command.c_str()) != 0)
-    throw Error(folder + "/" + script_name,
-                "gnuplot is not installed (Debian: gnuplot-nox) or fails, see gnuplot.log beside it");
+    throw Error(
+        folder + "/" + script_name,
+        "gnuplot is not installed (Debian: gnuplot-nox) or fails, see gnuplot.log beside it");
   std::filesystem::remove(folder + "/gnuplot.log");
 }
 

@@ -6,9 +6,10 @@
 
 namespace seam {
 
-/// Draws a comparison with gnuplot into DIR/SCENE/: `SCENE.png`, laid out as the paper's Fig. 1 (each primitive alone;
-/// joined position, velocity, acceleration of all methods), and `torque.png` (the joint's torque, whole and around the
-/// last join). The scripts and data that they are drawn from stay beside them. The recordings must be there already.
+/// Draws a comparison with gnuplot into DIR/SCENE/: `SCENE.png`, laid out as the paper's Fig. 1
+/// (each primitive alone; joined position, velocity, acceleration of all methods), and `torque.png`
+/// (the joint's torque, whole and around the last join). The scripts and data that they are drawn
+/// from stay beside them. The recordings must be there already.
 /// @throws Error  gnuplot is not there or fails (names its log), a file cannot be written
 void draw_figures(const Comparison& comparison, const std::string& dir);
 

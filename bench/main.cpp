@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <seam/error.hpp>
-
 #include "bench/columns.hpp"
 #include "bench/compare.hpp"
 #include "bench/figure.hpp"
 #include "bench/report.hpp"
+#include <seam/error.hpp>
 
 namespace {
 
@@ -25,7 +24,8 @@ struct Options {
 
 // A scene is a file, or the name of one of the project's own.
 std::string scene_file(const std::string& scene) {
-  if (std::filesystem::exists(scene) || scene.find_first_of("./") != std::string::npos) return scene;
+  if (std::filesystem::exists(scene) || scene.find_first_of("./") != std::string::npos)
+    return scene;
   return std::string(SEAM_SCENES) + "/" + scene + ".yaml";
 }
 
@@ -58,8 +58,8 @@ void show_progress(int done, int total, const std::string& what) {
 }
 
 void print(const seam::Comparison& comparison) {
-  fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title, comparison.dt * 1e3,
-             seam::table(comparison));
+  fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title,
+             comparison.dt * 1e3, seam::table(comparison));
   fmt::print("played at");
   for (const seam::Run& run : comparison.runs)
     fmt::print(" {} {:.0f}x{}", seam::to_string(run.method), run.real_time_factor,
@@ -67,18 +67,20 @@ void print(const seam::Comparison& comparison) {
 }
 
 void bench(const Options& options) {
-  const auto comparisons = seam::compare(read_scenes(options.scenes), read_methods(options.methods), options.dt,
-                                         options.jobs, show_progress);
+  const auto comparisons = seam::compare(read_scenes(options.scenes), read_methods(options.methods),
+                                         options.dt, options.jobs, show_progress);
   seam::write_results(comparisons, SEAM_VERSION, options.out);
   for (const seam::Comparison& comparison : comparisons) {
     print(comparison);
     seam::draw_figures(comparison, options.out);
   }
-  fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n", options.out);
+  fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n",
+             options.out);
 }
 
 void add_common(CLI::App& command, Options& options) {
-  command.add_option("--dt", options.dt, "Bullet's tick [s] (default: the scene's)")->check(CLI::Range(1e-6, 0.1));
+  command.add_option("--dt", options.dt, "Bullet's tick [s] (default: the scene's)")
+      ->check(CLI::Range(1e-6, 0.1));
   command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -92,13 +94,19 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", SEAM_VERSION);
 
   CLI::App& compare = *app.add_subcommand("bench", "play scenes with every method and compare");
-  compare.add_option("scenes", options.scenes, "scene files, or names of seam's own (default: all of those)");
-  compare.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3 (default: all)");
+  compare.add_option("scenes", options.scenes,
+                     "scene files, or names of seam's own (default: all of those)");
+  compare.add_option("--method", options.methods,
+                     "joining method: dmp2, dmp2a, dmp3 (default: all)");
   add_common(compare, options);
 
   CLI::App& single = *app.add_subcommand("run", "play one scene with one method");
-  single.add_option("scene", options.scenes, "scene file, or name of one of seam's own")->required()->expected(1);
-  single.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3")->required()->expected(1);
+  single.add_option("scene", options.scenes, "scene file, or name of one of seam's own")
+      ->required()
+      ->expected(1);
+  single.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3")
+      ->required()
+      ->expected(1);
   add_common(single, options);
 
   try {
@@ -117,4 +125,6 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run(argc, argv); }
+int main(int argc, char** argv) {
+  return run(argc, argv);
+}

@@ -5,10 +5,9 @@
 #include <LinearMath/btScalar.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/columns.hpp"
 #include <seam/error.hpp>
 #include <seam/table.hpp>
-
-#include "bench/columns.hpp"
 
 namespace seam {
 
@@ -66,7 +65,8 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
   }
   make_folder(dir);
   std::string tables;
-  for (const Comparison& comparison : comparisons) tables += (tables.empty() ? "" : "\n") + table(comparison);
+  for (const Comparison& comparison : comparisons)
+    tables += (tables.empty() ? "" : "\n") + table(comparison);
   write_whole(dir + "/table.md", tables);
   write_whole(dir + "/summary.json", summary(comparisons, seam_version).dump(2) + "\n");
 }

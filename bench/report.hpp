@@ -7,8 +7,9 @@
 
 namespace seam {
 
-/// Writes what a bench leaves behind: DIR/summary.json, the tables as DIR/table.md, and for each scene DIR/SCENE/METHOD.csv. The same runs give the
-/// same bytes: wall-clock figures are not in these files.
+/// Writes what a bench leaves behind: DIR/summary.json, the tables as DIR/table.md, and for each
+/// scene DIR/SCENE/METHOD.csv. The same runs give the same bytes: wall-clock figures are not in
+/// these files.
 /// @throws Error  cannot be written
 void write_results(const std::vector<Comparison>& comparisons, const std::string& seam_version,
                    const std::string& dir);

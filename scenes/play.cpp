@@ -2,9 +2,8 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
-#include <seam/bullet.hpp>
-
 #include "scenes/world.hpp"
+#include <seam/bullet.hpp>
 
 namespace seam {
 

@@ -1,14 +1,13 @@
 #pragma once
 
+#include "scenes/scene.hpp"
 #include <seam/join.hpp>
 #include <seam/recording.hpp>
 
-#include "scenes/scene.hpp"
-
 namespace seam {
 
-/// Runs a scene in a Bullet world of its own and records every tick. The same scene, method and dt give the same
-/// bits, whatever else runs beside it.
+/// Runs a scene in a Bullet world of its own and records every tick. The same scene, method and dt
+/// give the same bits, whatever else runs beside it.
 /// @param dt  [s] Bullet's tick
 /// @throws Error  see Robot and Controller
 Recording play(const Scene& scene, Join method, double dt);

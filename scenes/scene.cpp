@@ -4,11 +4,10 @@
 #include <filesystem>
 #include <map>
 
+#include "scenes/yaml_reader.hpp"
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>
 #include <seam/learn.hpp>
-
-#include "scenes/yaml_reader.hpp"
 
 namespace seam {
 
@@ -42,7 +41,8 @@ Primitive read_primitive(const YamlEntry& entry) {
   if (const auto gains = entry.find("gains")) settings.gains = read_gains(*gains);
   if (const auto window = entry.find("window")) derivatives.window = window->not_negative();
   const YamlEntry file = entry.at("demonstration");
-  return at_key(file, [&] { return learn(Demonstration::read(file.path(), derivatives), settings); });
+  return at_key(file,
+                [&] { return learn(Demonstration::read(file.path(), derivatives), settings); });
 }
 
 Switch read_switch(const YamlEntry& entry) {
@@ -53,14 +53,17 @@ Switch read_switch(const YamlEntry& entry) {
   return time ? after(time->positive()) : before_end(entry.at("before_end").not_negative());
 }
 
-void read_sequence(const YamlEntry& entry, const std::map<std::string, Primitive>& primitives, Scene& scene) {
+void read_sequence(const YamlEntry& entry, const std::map<std::string, Primitive>& primitives,
+                   Scene& scene) {
   entry.only({"start_after", "steps"});
-  if (const auto delay = entry.find("start_after")) scene.sequence.start_after(delay->not_negative());
+  if (const auto delay = entry.find("start_after"))
+    scene.sequence.start_after(delay->not_negative());
   for (const YamlEntry& step : entry.at("steps").items()) {
     step.only({"play", "until"});
     const YamlEntry play = step.at("play");
     const auto primitive = primitives.find(play.text());
-    if (primitive == primitives.end()) play.fail("\"" + play.text() + "\", is not among the primitives");
+    if (primitive == primitives.end())
+      play.fail("\"" + play.text() + "\", is not among the primitives");
     at_key(play, [&] { scene.sequence.then(primitive->second); });
     if (const auto until = step.find("until")) {
       const Switch when = read_switch(*until);
@@ -109,9 +112,11 @@ int Scene::ticks(double step) const {
 
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
-  root.only({"format", "title", "robot", "primitives", "sequence", "control", "dt", "settle", "figure"});
+  root.only(
+      {"format", "title", "robot", "primitives", "sequence", "control", "dt", "settle", "figure"});
   const YamlEntry format = root.at("format");
-  if (format.text() != "seam-scene 1") format.fail("\"" + format.text() + "\", must be seam-scene 1");
+  if (format.text() != "seam-scene 1")
+    format.fail("\"" + format.text() + "\", must be seam-scene 1");
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();

@@ -12,18 +12,18 @@ namespace seam {
 
 /// A scene file, read and learned: everything that a run needs but the joining method.
 struct Scene {
-  std::string name;               // the file's name without its ending
-  std::string title;              // one line
+  std::string name;   // the file's name without its ending
+  std::string title;  // one line
   RobotModel robot;
-  Eigen::VectorXd start;          // [rad] joint positions at rest
+  Eigen::VectorXd start;  // [rad] joint positions at rest
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
   ControlSettings control;
-  double dt = 1e-3;               // [s] Bullet's tick
-  double settle = 1.0;            // [s] that the run goes on after the last switch
-  std::string figure;             // the joint that the figure shows
+  double dt = 1e-3;     // [s] Bullet's tick
+  double settle = 1.0;  // [s] that the run goes on after the last switch
+  std::string figure;   // the joint that the figure shows
 
-  int ticks(double step) const;   // of a whole run
+  int ticks(double step) const;  // of a whole run
 
   /// Reads a scene file (the format is explained in scenes/README.md).
   /// @throws Error  names file, line and key

@@ -16,10 +16,14 @@ struct World::Parts {
   btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
 };
 
-World::World() : parts_(std::make_unique<Parts>()) { parts_->world.setGravity(btVector3(0.0, 0.0, -9.81)); }
+World::World() : parts_(std::make_unique<Parts>()) {
+  parts_->world.setGravity(btVector3(0.0, 0.0, -9.81));
+}
 
 World::~World() = default;
 
-btMultiBodyDynamicsWorld& World::operator*() noexcept { return parts_->world; }
+btMultiBodyDynamicsWorld& World::operator*() noexcept {
+  return parts_->world;
+}
 
 }  // namespace seam

@@ -98,8 +98,8 @@ double YamlEntry::not_negative() const {
 int YamlEntry::count(int least) const {
   int value = 0;
   if (!node_.IsScalar() || !YAML::convert<int>::decode(node_, value) || value < least)
-    fail((node_.IsScalar() ? "\"" + node_.Scalar() + "\", " : "") + "must be a whole number >= " +
-         std::to_string(least));
+    fail((node_.IsScalar() ? "\"" + node_.Scalar() + "\", " : "") +
+         "must be a whole number >= " + std::to_string(least));
   return value;
 }
 

@@ -10,8 +10,8 @@
 
 namespace seam {
 
-/// A place in a YAML file: a node that knows the file and key it came from, so that whatever is wrong with it is
-/// refused as `line.yaml:12: key "dt": "fast", must be a number > 0`.
+/// A place in a YAML file: a node that knows the file and key it came from, so that whatever is
+/// wrong with it is refused as `line.yaml:12: key "dt": "fast", must be a number > 0`.
 class YamlEntry {
  public:
   /// The root of a file.
@@ -28,10 +28,10 @@ class YamlEntry {
   std::vector<std::pair<std::string, YamlEntry>> entries() const;
 
   std::string text() const;
-  double number() const;           // finite
-  double positive() const;         // finite and > 0
-  double not_negative() const;     // finite and ≥ 0
-  int count(int least) const;      // whole and ≥ least
+  double number() const;        // finite
+  double positive() const;      // finite and > 0
+  double not_negative() const;  // finite and ≥ 0
+  int count(int least) const;   // whole and ≥ least
   /// A path, relative to the file's folder unless absolute.
   std::string path() const;
 

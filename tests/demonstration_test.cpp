@@ -1,8 +1,7 @@
-#include <seam/demonstration.hpp>
-
 #include <gmock/gmock.h>
 
 #include "tests/support.hpp"
+#include <seam/demonstration.hpp>
 
 namespace seam {
 namespace {

@@ -1,15 +1,15 @@
-#include <seam/execution.hpp>
-
 #include <gmock/gmock.h>
 
 #include "tests/allocation_guard.hpp"
 #include "tests/ode.hpp"
 #include "tests/support.hpp"
+#include <seam/execution.hpp>
 
 namespace seam {
 namespace {
 
-double worst_error(const Primitive& primitive, double dt, double duration, double filtered_goal_shift) {
+double worst_error(const Primitive& primitive, double dt, double duration,
+                   double filtered_goal_shift) {
   Execution execution(primitive);
   std::vector<test::Ode> solutions;
   Sample at(primitive.dimensions());
@@ -27,7 +27,8 @@ double worst_error(const Primitive& primitive, double dt, double duration, doubl
     for (int d = 0; d < primitive.dimensions(); ++d) {
       test::Ode& solution = solutions[static_cast<std::size_t>(d)];
       solution.advance(dt, std::max(2, static_cast<int>(dt / 2e-4)));
-      worst = std::max(worst, std::abs(execution.sample().position(d) - static_cast<double>(solution.y)));
+      worst = std::max(worst,
+                       std::abs(execution.sample().position(d) - static_cast<double>(solution.y)));
     }
   }
   return worst;
@@ -36,13 +37,15 @@ double worst_error(const Primitive& primitive, double dt, double duration, doubl
 TEST(Execution, AgreesWithAnIndependentSolutionOfTheSecondOrderSystem) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 3; ++i)
-    EXPECT_LT(worst_error(test::random_primitive(random, 2), 1e-3, 1.5, 0.0), 1e-9) << "seed 4, primitive " << i;
+    EXPECT_LT(worst_error(test::random_primitive(random, 2), 1e-3, 1.5, 0.0), 1e-9)
+        << "seed 4, primitive " << i;
 }
 
 TEST(Execution, AgreesWithAnIndependentSolutionOfTheThirdOrderSystem) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 3; ++i)
-    EXPECT_LT(worst_error(test::random_primitive(random, 2), 1e-3, 1.5, 0.3), 1e-9) << "seed 5, primitive " << i;
+    EXPECT_LT(worst_error(test::random_primitive(random, 2), 1e-3, 1.5, 0.3), 1e-9)
+        << "seed 5, primitive " << i;
 }
 
 TEST(Execution, ErrorFallsWithTheFourthPowerOfTheStep) {

@@ -152,7 +152,7 @@ TEST(InverseDynamics, TakesFlatBodiesWithoutAWord) {
 TEST(InverseDynamics, OfARobotWithoutJointsIsEmpty) {
   const TempFolder folder;
   const auto model = seam::RobotModel::read(
-      folder.write("t.urdf", "<robot name=\"table\"><link name=\"top\"/></robot>"));
+      folder.write("t.urdf", R"(<robot name="table"><link name="top"/></robot>)"));
   const seam::InverseDynamics dynamics(model);
   EXPECT_EQ(dynamics.dof(), 0);
   EXPECT_EQ(torque(dynamics, VectorXd(0), VectorXd(0), VectorXd(0)).size(), 0);

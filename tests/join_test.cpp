@@ -1,11 +1,9 @@
-#include <seam/join.hpp>
-
 #include <gmock/gmock.h>
 
-#include <seam/execution.hpp>
-#include <seam/learn.hpp>
-
 #include "tests/support.hpp"
+#include <seam/execution.hpp>
+#include <seam/join.hpp>
+#include <seam/learn.hpp>
 
 namespace seam {
 namespace {
@@ -13,7 +11,8 @@ namespace {
 Sample random_state(std::mt19937_64& random, int dimensions) {
   std::normal_distribution<double> normal;
   const auto vector = [&](double scale) {
-    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(dimensions, [&] { return scale * normal(random); }));
+    return Eigen::VectorXd(
+        Eigen::VectorXd::NullaryExpr(dimensions, [&] { return scale * normal(random); }));
   };
   Sample state(dimensions);
   state.position = vector(1.0);
@@ -29,7 +28,8 @@ TEST(Join, PositionAndVelocityContinueWithEveryMethod) {
     const Sample at = random_state(random, 3);
     for (const Join method : all_joins) {
       execution.reinitialise(at, 1.0, method);
-      EXPECT_LT((execution.sample().position - at.position).cwiseAbs().maxCoeff(), 1e-14) << "seed 10, case " << i;
+      EXPECT_LT((execution.sample().position - at.position).cwiseAbs().maxCoeff(), 1e-14)
+          << "seed 10, case " << i;
       EXPECT_EQ(execution.sample().velocity, at.velocity);
     }
   }
@@ -48,7 +48,8 @@ TEST(Join, AccelerationContinuesWithDmp2aAndDmp3) {
   }
 }
 
-// Dmp2 leaves the step that Eq. 1 gives, worked out here by hand: fresh at the learned start, but moving.
+// Dmp2 leaves the step that Eq. 1 gives, worked out here by hand: fresh at the learned start, but
+// moving.
 TEST(Join, AccelerationStepsByTheDampingOfTheVelocityWithDmp2) {
   const Primitive primitive = learn(test::minimum_jerk());
   Execution execution(primitive);
@@ -59,8 +60,8 @@ TEST(Join, AccelerationStepsByTheDampingOfTheVelocityWithDmp2) {
   EXPECT_NEAR(execution.sample().acceleration(0) - at_rest, -2.0 * std::sqrt(200.0) * 0.5, 1e-12);
 }
 
-// Of all weights with the right forcing, those of dmp2a are nearest to the learned ones: any other change that keeps
-// the forcing is orthogonal to theirs.
+// Of all weights with the right forcing, those of dmp2a are nearest to the learned ones: any other
+// change that keeps the forcing is orthogonal to theirs.
 TEST(Join, Dmp2aChangesTheWeightsLeast) {
   std::mt19937_64 random(12);
   const Primitive primitive = test::random_primitive(random, 1);
@@ -69,7 +70,8 @@ TEST(Join, Dmp2aChangesTheWeightsLeast) {
   basis.regressor(1.0, row);
   Eigen::MatrixXd weights = primitive.weights;
   Eigen::ArrayXd r(1);
-  continue_from(random_state(random, 1), Join::dmp2a, primitive.gains, primitive.tau, primitive.goal, row, weights, r);
+  continue_from(random_state(random, 1), Join::dmp2a, primitive.gains, primitive.tau,
+                primitive.goal, row, weights, r);
   const Eigen::VectorXd change = weights - primitive.weights;
   Eigen::VectorXd other = Eigen::VectorXd::Random(basis.count());
   other -= row.matrix() * other.dot(row.matrix()) / row.matrix().squaredNorm();
@@ -83,7 +85,8 @@ TEST(Join, Dmp3LeavesTheWeightsAlone) {
   Eigen::MatrixXd weights = primitive.weights;
   Eigen::ArrayXd row = Eigen::ArrayXd::Constant(10, 0.1);
   Eigen::ArrayXd r(2);
-  continue_from(random_state(random, 2), Join::dmp3, primitive.gains, primitive.tau, primitive.goal, row, weights, r);
+  continue_from(random_state(random, 2), Join::dmp3, primitive.gains, primitive.tau, primitive.goal,
+                row, weights, r);
   EXPECT_EQ(weights, primitive.weights);
 }
 
@@ -93,8 +96,9 @@ TEST(Join, HasNamesThatAreReadBack) {
             "method \"dmp4\": not known, must be one of dmp2, dmp2a, dmp3");
 }
 
-// The price of smoothness: a minimum-jerk movement of 1 rad in 1 s begun at 0.5 rad/s. Peak jerk and largest deviation
-// from dmp2, with the paper's gains, against figures computed independently when the methods were chosen.
+// The price of smoothness: a minimum-jerk movement of 1 rad in 1 s begun at 0.5 rad/s. Peak jerk
+// and largest deviation from dmp2, with the paper's gains, against figures computed independently
+// when the methods were chosen.
 struct Price {
   Join method;
   double jerk;       // [rad/s³]
@@ -121,14 +125,16 @@ TEST_P(JoinPrice, IsAsCalculatedIndependently) {
     execution.step(dt);
     dmp2.step(dt);
     jerk = std::max(jerk, std::abs(execution.sample().acceleration(0) - before) / dt);
-    deviation = std::max(deviation, std::abs(execution.sample().position(0) - dmp2.sample().position(0)));
+    deviation =
+        std::max(deviation, std::abs(execution.sample().position(0) - dmp2.sample().position(0)));
   }
   EXPECT_NEAR(jerk, GetParam().jerk, 1.0);
   EXPECT_NEAR(deviation, GetParam().deviation, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(, JoinPrice, testing::Values(Price{Join::dmp2a, 59.0, 0.029}, Price{Join::dmp3, 151.0, 0.021}),
-                         [](const auto& price) { return std::string(to_string(price.param.method)); });
+INSTANTIATE_TEST_SUITE_P(
+    , JoinPrice, testing::Values(Price{Join::dmp2a, 59.0, 0.029}, Price{Join::dmp3, 151.0, 0.021}),
+    [](const auto& price) { return std::string(to_string(price.param.method)); });
 
 }  // namespace
 }  // namespace seam

@@ -1,11 +1,9 @@
-#include <seam/learn.hpp>
-
 #include <gmock/gmock.h>
 
+#include "tests/support.hpp"
 #include <seam/basis.hpp>
 #include <seam/execution.hpp>
-
-#include "tests/support.hpp"
+#include <seam/learn.hpp>
 
 namespace seam {
 namespace {
@@ -16,7 +14,9 @@ double worst_reproduction_error(const Demonstration& demo, const Primitive& prim
   Execution execution(primitive);
   double worst = 0.0;
   for (int i = 0; i < demo.samples(); ++i) {
-    worst = std::max(worst, (execution.sample().position.transpose() - demo.position.row(i)).cwiseAbs().maxCoeff());
+    worst = std::max(
+        worst,
+        (execution.sample().position.transpose() - demo.position.row(i)).cwiseAbs().maxCoeff());
     if (i + 1 < demo.samples()) execution.step(demo.time(i + 1) - demo.time(i));
   }
   return worst;
@@ -28,8 +28,8 @@ TEST(Learn, GivesBackTheWeightsThatMadeTheDemonstration) {
   truth.gains = Gains();
   truth.kernels = Kernels::even_in_time(10, 0.75, truth.alpha);
   const int N = 400;
-  Demonstration demo{truth.coordinates, Eigen::VectorXd(N), Eigen::MatrixXd(N, 3), Eigen::MatrixXd(N, 3),
-                     Eigen::MatrixXd(N, 3)};
+  Demonstration demo{truth.coordinates, Eigen::VectorXd(N), Eigen::MatrixXd(N, 3),
+                     Eigen::MatrixXd(N, 3), Eigen::MatrixXd(N, 3)};
   Execution execution(truth);
   for (int i = 0; i < N; ++i) {
     demo.time(i) = truth.tau * i / (N - 1);
@@ -38,7 +38,8 @@ TEST(Learn, GivesBackTheWeightsThatMadeTheDemonstration) {
     demo.acceleration.row(i) = execution.sample().acceleration;
     execution.step(truth.tau / (N - 1));
   }
-  // The goal that learning takes is the last sample; the forcing that makes up for the shift is learned with it.
+  // The goal that learning takes is the last sample; the forcing that makes up for the shift is
+  // learned with it.
   const Primitive learned = learn(demo);
   EXPECT_LT(worst_reproduction_error(demo, learned), 2e-3);
   demo.position.bottomRows<1>() = truth.goal.transpose();
@@ -50,9 +51,11 @@ TEST(Learn, GivesBackTheWeightsThatMadeTheDemonstration) {
       (truth.tau * truth.tau);
   Eigen::ArrayXd row(10);
   Basis(truth.kernels, truth.alpha).regressor(std::exp(-truth.alpha), row);
-  ends_at_goal.acceleration.bottomRows<1>() += row.matrix().transpose() * truth.weights / (truth.tau * truth.tau);
+  ends_at_goal.acceleration.bottomRows<1>() +=
+      row.matrix().transpose() * truth.weights / (truth.tau * truth.tau);
   const Primitive exact = learn(ends_at_goal);
-  EXPECT_LT((exact.weights - truth.weights).cwiseAbs().maxCoeff(), 1e-7 * truth.weights.cwiseAbs().maxCoeff());
+  EXPECT_LT((exact.weights - truth.weights).cwiseAbs().maxCoeff(),
+            1e-7 * truth.weights.cwiseAbs().maxCoeff());
 }
 
 TEST(Learn, ReproducesAMinimumJerkMovement) {
@@ -84,8 +87,10 @@ TEST(Learn, KeepsTheStateAtTheStartOfAMovingDemonstration) {
 }
 
 TEST(Learn, RefusesTooFewSamplesAndSizesThatDoNotMatch) {
-  Demonstration demo = test::demonstrate(0.018, [](double t) { return Eigen::Vector3d(t, 1.0, 0.0); });
-  EXPECT_EQ(refusal([&] { learn(demo); }), "demonstration: 19 samples, must be >= 20 (2 per kernel)");
+  Demonstration demo =
+      test::demonstrate(0.018, [](double t) { return Eigen::Vector3d(t, 1.0, 0.0); });
+  EXPECT_EQ(refusal([&] { learn(demo); }),
+            "demonstration: 19 samples, must be >= 20 (2 per kernel)");
   demo.velocity.resize(3, 1);
   EXPECT_EQ(refusal([&] { learn(demo); }),
             "demonstration: time, position, velocity and acceleration differ in size");

@@ -1,8 +1,7 @@
-#include <seam/metrics.hpp>
-
 #include <gmock/gmock.h>
 
 #include "tests/support.hpp"
+#include <seam/metrics.hpp>
 
 namespace seam {
 namespace {
@@ -40,13 +39,16 @@ TEST(TorqueJump, DoesNotSeeTheTicksNextToTheJoin) {
 
 TEST(TorqueJump, OfAKinkVanishesAndOfASmoothSignalHasOrderTwo) {
   EXPECT_LT(jump_at(1e-3, [](double t) { return 40.0 * std::abs(t - join); }), 1e-10);
-  EXPECT_NEAR(order_of([](double t) { return std::sin(20.0 * t) + (t < join ? 0.0 : 300.0 * (t - join) * (t - join)); }),
+  EXPECT_NEAR(order_of([](double t) {
+                return std::sin(20.0 * t) + (t < join ? 0.0 : 300.0 * (t - join) * (t - join));
+              }),
               2.0, 0.1);
 }
 
 TEST(TorqueJump, IsFoundAtAJoinBetweenTwoTicks) {
   const double at = join + 0.0004;
-  Recording recording = recording_of(1e-3, [&](double t) { return 5.0 * t + (t < at ? 0.0 : 2.0); });
+  Recording recording =
+      recording_of(1e-3, [&](double t) { return 5.0 * t + (t < at ? 0.0 : 2.0); });
   recording.joins[0].time = at;
   EXPECT_NEAR(measure(recording).torque_jump_nm, 2.0, 1e-9);
 }
@@ -83,16 +85,18 @@ TEST(Deviation, IsTheLargestDistanceOfTheReferences) {
   Recording b = a;
   b.ref(40, 1) = -0.25;
   EXPECT_DOUBLE_EQ(deviation_peak(a, b), 0.25);
-  EXPECT_EQ(test::refusal([&] { deviation_peak(a, Recording({"a"}, Eigen::VectorXd::Ones(1), 5)); }),
-            "deviation: the two runs differ in ticks or joints");
+  EXPECT_EQ(
+      test::refusal([&] { deviation_peak(a, Recording({"a"}, Eigen::VectorXd::Ones(1), 5)); }),
+      "deviation: the two runs differ in ticks or joints");
 }
 
 TEST(Recording, IsWrittenWithTheColumnsOfTheFormat) {
   const TempFolder folder;
   recording_of(0.1, [](double t) { return t; }).write(folder.path("r.csv"));
   const std::string text = test::read_file(folder.path("r.csv"));
-  EXPECT_THAT(text, testing::StartsWith("time,switch,ref.a,ref.b,ref_vel.a,ref_vel.b,ref_acc.a,ref_acc.b,q.a,q.b,"
-                                        "qd.a,qd.b,torque.a,torque.b\n0,0,"));
+  EXPECT_THAT(text, testing::StartsWith(
+                        "time,switch,ref.a,ref.b,ref_vel.a,ref_vel.b,ref_acc.a,ref_acc.b,q.a,q.b,"
+                        "qd.a,qd.b,torque.a,torque.b\n0,0,"));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace seam::test {
 
-/// One coordinate of Eqs. 1-5 solved by the classical Runge-Kutta method in long double with many small steps: an
-/// independent solution, which shares no code with the library's.
+/// One coordinate of Eqs. 1-5 solved by the classical Runge-Kutta method in long double with many
+/// small steps: an independent solution, which shares no code with the library's.
 struct Ode {
   using Real = long double;
 
@@ -19,8 +19,13 @@ struct Ode {
   Real y, yd, r, x;  // state: position, velocity, filtered goal, phase
 
   Ode(const Primitive& from, int d, double position, double velocity)
-      : primitive(from), tau(from.tau), goal(from.goal(d)), y(position), yd(velocity),
-        r(from.goal(d)), x(1.0L) {
+      : primitive(from),
+        tau(from.tau),
+        goal(from.goal(d)),
+        y(position),
+        yd(velocity),
+        r(from.goal(d)),
+        x(1.0L) {
     for (int j = 0; j < from.kernels.count(); ++j) weights.push_back(from.weights(j, d));
   }
 
@@ -48,7 +53,8 @@ struct Ode {
       const State k3 = slope(plus(s, k2, h / 2));
       const State k4 = slope(plus(s, k3, h));
       State sum{};
-      for (std::size_t n = 0; n < 4; ++n) sum[n] = s[n] + h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
+      for (std::size_t n = 0; n < 4; ++n)
+        sum[n] = s[n] + h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
       y = sum[0], yd = sum[1], r = sum[2], x = sum[3];
     }
   }

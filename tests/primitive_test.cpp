@@ -1,12 +1,10 @@
-#include <seam/primitive.hpp>
-
 #include <limits>
 
 #include <gmock/gmock.h>
 
-#include <seam/basis.hpp>
-
 #include "tests/support.hpp"
+#include <seam/basis.hpp>
+#include <seam/primitive.hpp>
 
 namespace seam {
 namespace {
@@ -24,8 +22,10 @@ TEST(Kernels, CentresAreEvenInTime) {
 
 TEST(Kernels, RefusesSettingsOutOfRange) {
   EXPECT_EQ(refusal([] { Kernels::even_in_time(1, 0.75, 2.0); }), "kernels: count 1, must be >= 2");
-  EXPECT_THAT(refusal([] { Kernels::even_in_time(10, -0.5, 2.0); }), testing::HasSubstr("width -0.5"));
-  EXPECT_THAT(refusal([] { Kernels::even_in_time(10, 0.5, NAN); }), testing::HasSubstr("alpha nan"));
+  EXPECT_THAT(refusal([] { Kernels::even_in_time(10, -0.5, 2.0); }),
+              testing::HasSubstr("width -0.5"));
+  EXPECT_THAT(refusal([] { Kernels::even_in_time(10, 0.5, NAN); }),
+              testing::HasSubstr("alpha nan"));
 }
 
 TEST(Gains, DefaultToATriplePole) {
@@ -65,13 +65,20 @@ TEST(Primitive, RefusesWhatCannotBeExecuted) {
   };
   EXPECT_EQ(message([](Primitive& p) { p.tau = 0.0; }), "primitive: tau 0.000000, must be > 0");
   EXPECT_EQ(message([](Primitive& p) { p.gains.K = -1.0; }), "primitive: K -1.000000, must be > 0");
-  EXPECT_EQ(message([](Primitive& p) { p.goal(0) = NAN; }), "primitive: goal has an entry that is not finite");
+  EXPECT_EQ(message([](Primitive& p) { p.goal(0) = NAN; }),
+            "primitive: goal has an entry that is not finite");
   EXPECT_EQ(message([](Primitive& p) { p.weights(3, 1) = INFINITY; }),
             "primitive: weights have an entry that is not finite");
-  EXPECT_EQ(message([](Primitive& p) { p.weights.resize(3, 2); }), "primitive: weights are 3 x 2, must be 10 x 2");
-  EXPECT_EQ(message([](Primitive& p) { p.kernels.widths(4) = 0.0; }), "primitive: a kernel width is not > 0");
-  EXPECT_EQ(message([](Primitive& p) { p.coordinates = {"a", "a"}; }), "primitive: coordinate names repeat");
-  EXPECT_EQ(message([](Primitive& p) { p.coordinates = {"a"}; }), "primitive: 1 coordinate names for 2 goals");
+  EXPECT_EQ(message([](Primitive& p) { p.weights.resize(3, 2); }),
+            "primitive: weights are 3 x 2, must be 10 x 2");
+  EXPECT_EQ(message([](Primitive& p) { p.kernels.widths(4) = 0.0; }),
+            "primitive: a kernel width is not > 0");
+  EXPECT_EQ(message([](Primitive& p) {
+              p.coordinates = {"a", "a"};
+            }),
+            "primitive: coordinate names repeat");
+  EXPECT_EQ(message([](Primitive& p) { p.coordinates = {"a"}; }),
+            "primitive: 1 coordinate names for 2 goals");
   EXPECT_EQ(message([](Primitive& p) { p.start_velocity.resize(3); }),
             "primitive: start_velocity has 3 entries, must have 2");
 }

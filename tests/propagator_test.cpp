@@ -1,6 +1,6 @@
-#include <seam/propagator.hpp>
-
 #include <gtest/gtest.h>
+
+#include <seam/propagator.hpp>
 
 namespace seam {
 namespace {
@@ -33,7 +33,8 @@ TEST(Propagator, AConstantForcingMovesTheEquilibriumByItsShareOfK) {
   EXPECT_NEAR(e(1), 0.0, 1e-13);
 }
 
-// y(t) = t²/2 solves τ²ÿ = −Ky − Dτẏ + f with the quadratic f = τ² + Dτt + Kt²/2: no error at any step length.
+// y(t) = t²/2 solves τ²ÿ = −Ky − Dτẏ + f with the quadratic f = τ² + Dτt + Kt²/2: no error at any
+// step length.
 TEST(Propagator, IsExactForAQuadraticForcing) {
   const Gains gains = Gains::paper();
   const double tau = 0.7;

@@ -20,19 +20,19 @@ const char* const mass =
     R"(<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)";
 
 std::string robot(const std::string& content) {
-  return "<robot name=\"r\">" + content + "</robot>";
+  return R"(<robot name="r">)" + content + "</robot>";
 }
 
 std::string link(const std::string& name, const std::string& content = mass) {
-  return "<link name=\"" + name + "\">" + content + "</link>";
+  return R"(<link name=")" + name + R"(">)" + content + "</link>";
 }
 
 std::string joint(
     const std::string& name, const std::string& type, const std::string& parent,
     const std::string& child,
     const std::string& content = R"(<limit lower="-1" upper="1" effort="5" velocity="2"/>)") {
-  return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
-         "\"/><child link=\"" + child + "\"/>" + content + "</joint>";
+  return R"(<joint name=")" + name + R"(" type=")" + type + R"("><parent link=")" + parent +
+         R"("/><child link=")" + child + R"("/>)" + content + "</joint>";
 }
 
 /// A base `a` and a link `b` behind the joint `j`.
@@ -42,8 +42,8 @@ std::string one_joint(const std::string& content, const std::string& type = "rev
 
 std::string inertial_element(const std::string& mass_value, const std::string& ixx,
                              const std::string& iyy, const std::string& izz) {
-  return "<inertial><mass value=\"" + mass_value + "\"/><inertia ixx=\"" + ixx +
-         "\" ixy=\"0\" ixz=\"0\" iyy=\"" + iyy + "\" iyz=\"0\" izz=\"" + izz + "\"/></inertial>";
+  return R"(<inertial><mass value=")" + mass_value + R"("/><inertia ixx=")" + ixx +
+         R"(" ixy="0" ixz="0" iyy=")" + iyy + R"(" iyz="0" izz=")" + izz + R"("/></inertial>)";
 }
 
 /// A link `a` whose inertial element says this.
@@ -81,8 +81,8 @@ struct Refused {
   std::string text;
   std::string message;
 };
-void PrintTo(const Refused& refused, std::ostream* out) {
-  *out << refused.name;
+std::ostream& operator<<(std::ostream& out, const Refused& refused) {
+  return out << refused.name;
 }
 
 class RobotModelRefuses : public testing::TestWithParam<Refused> {};
@@ -95,7 +95,7 @@ const char* const limits = R"(<limit lower="-1" upper="1" effort="5" velocity="2
 
 const Refused refusals[] = {
     {"EmptyFile", "  \n", "x.urdf: is empty"},
-    {"NotXml", "<robot name=\"r\">\n<link name=\"a\">\n</robot>",
+    {"NotXml", "<robot name='r'>\n<link name='a'>\n</robot>",
      "x.urdf:2: not well-formed XML (XML_ERROR_MISMATCHED_ELEMENT)"},
     {"NoXmlAtAll", "mass: 3", "x.urdf:1: not well-formed XML (XML_ERROR_PARSING_TEXT)"},
     {"OtherRoot", "<sdf/>", "x.urdf: root element is <sdf>, must be <robot>"},
@@ -106,19 +106,24 @@ const Refused refusals[] = {
      "x.urdf: Failed to find root link: Two root links found: [a] and [b]"},
     {"JointToNowhere", robot(link("a") + joint("j", "fixed", "a", "b")),
      "x.urdf: Failed to build tree: child link [b] of joint [j] not found"},
+    {"NoRootElement", "<!-- nothing -->", "x.urdf: root element is <>, must be <robot>"},
     {"Ring", robot(link("a") + joint("j", "fixed", "a", "a")),
-     "x.urdf: Failed to find root link: No root link found. The robot xml is not a valid tree."},
+     R"(x.urdf: link "a": is its own ancestor, must be in a tree)"},
     {"RingAside",
      robot(link("a") + link("b") + link("c") + joint("j", "fixed", "b", "c") +
            joint("k", "fixed", "c", "b")),
-     "x.urdf: link \"b\": is not joined to the root link \"a\""},
+     R"(x.urdf: link "c": is its own ancestor, must be in a tree)"},
     {"TwoParents",
      robot(link("a") + link("b") + link("c") + joint("i", "fixed", "a", "b") +
            joint("j", "fixed", "a", "c") + joint("k", "fixed", "b", "c")),
-     "x.urdf: link \"c\": is the child of more than one joint, must be of one"},
+     R"(x.urdf: link "c": is the child of joints "j" and "k", must be of one)"},
+    {"JointWithoutChild",
+     robot(link("a") + R"(<joint name="j" type="fixed"><parent link="a"/></joint>)"),
+     "x.urdf: Failed to build tree: Joint [j] is missing a parent and/or child link "
+     "specification."},
 
-    {"MassNegative", inertial("-1", "1", "1", "1"), "x.urdf: link \"a\": mass -1 kg, must be > 0"},
-    {"MassZero", inertial("0", "1", "1", "1"), "x.urdf: link \"a\": mass 0 kg, must be > 0"},
+    {"MassNegative", inertial("-1", "1", "1", "1"), R"(x.urdf: link "a": mass -1 kg, must be > 0)"},
+    {"MassZero", inertial("0", "1", "1", "1"), R"(x.urdf: link "a": mass 0 kg, must be > 0)"},
     {"MassNan", inertial("nan", "1", "1", "1"),
      "x.urdf: Inertial: mass [nan] is not a float; Could not parse inertial element for Link [a]"},
     {"MassInfinite", inertial("inf", "1", "1", "1"),
@@ -135,11 +140,11 @@ const Refused refusals[] = {
      "x.urdf: Inertial: inertia element ixx is not a valid double; Could not parse inertial "
      "element for Link [a]"},
     {"InertiaNegative", inertial("1", "-0.1", "1", "1"),
-     "x.urdf: link \"a\": inertia has the principal moments -0.1, 1, 1 kg m^2, must all be > 0"},
+     R"(x.urdf: link "a": inertia has the principal moments -0.1, 1, 1 kg m^2, must all be > 0)"},
     {"InertiaSingular", inertial("1", "0", "1", "1"),
-     "x.urdf: link \"a\": inertia has the principal moments 0, 1, 1 kg m^2, must all be > 0"},
+     R"(x.urdf: link "a": inertia has the principal moments 0, 1, 1 kg m^2, must all be > 0)"},
     {"InertiaImpossible", inertial("1", "0.1", "0.5", "0.2"),
-     "x.urdf: link \"a\": inertia has the principal moments 0.1, 0.2, 0.5 kg m^2, none may exceed "
+     R"(x.urdf: link "a": inertia has the principal moments 0.1, 0.2, 0.5 kg m^2, none may exceed )"
      "the sum of the other two"},
     {"OriginNan",
      robot(link(
@@ -151,23 +156,23 @@ const Refused refusals[] = {
     {"MovesWithoutMass",
      robot(link("a") + link("b", "") + link("c", "") + joint("j", "revolute", "a", "b") +
            joint("k", "fixed", "b", "c")),
-     "x.urdf: link \"b\": has no mass, nor has any link fixed to it, but joint \"j\" moves it: "
+     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it: )"
      "must be > 0"},
 
     {"Floating", one_joint("", "floating"),
-     "x.urdf: joint \"j\": is a floating joint, must be revolute, continuous, prismatic or fixed"},
+     R"(x.urdf: joint "j": is a floating joint, must be revolute, continuous, prismatic or fixed)"},
     {"Planar", one_joint("", "planar"),
-     "x.urdf: joint \"j\": is a planar joint, must be revolute, continuous, prismatic or fixed"},
+     R"(x.urdf: joint "j": is a planar joint, must be revolute, continuous, prismatic or fixed)"},
     {"Helical", one_joint("", "helical"),
      "x.urdf: Joint [j] has no known type [helical]; joint xml is not initialized correctly"},
     {"Mimic",
      robot(link("a") + link("b") + link("c") + joint("i", "revolute", "a", "b") +
-           joint("j", "revolute", "b", "c", std::string(limits) + "<mimic joint=\"i\"/>")),
-     "x.urdf: joint \"j\": mimics joint \"i\", must move by itself"},
-    {"AxisZero", one_joint(std::string(limits) + "<axis xyz=\"0 0 0\"/>"),
-     "x.urdf: joint \"j\": axis 0 0 0, must not be zero"},
+           joint("j", "revolute", "b", "c", std::string(limits) + R"(<mimic joint="i"/>)")),
+     R"(x.urdf: joint "j": mimics joint "i", must move by itself)"},
+    {"AxisZero", one_joint(std::string(limits) + R"(<axis xyz="0 0 0"/>)"),
+     R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
     {"AxisWithoutXyz", one_joint(std::string(limits) + "<axis/>"),
-     "x.urdf: joint \"j\": axis 0 0 0, must not be zero"},
+     R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
     {"LimitMissing", one_joint(""),
      "x.urdf: Joint [j] is of type REVOLUTE but it does not specify limits; joint xml is not "
      "initialized correctly"},
@@ -178,32 +183,32 @@ const Refused refusals[] = {
      "x.urdf: joint limit: no velocity; Could not parse limit element for joint [j]; joint xml is "
      "not initialized correctly"},
     {"EffortNegative", one_joint(R"(<limit effort="-1" velocity="1"/>)"),
-     "x.urdf: joint \"j\": effort limit -1 N m, must be >= 0"},
+     R"(x.urdf: joint "j": effort limit -1 N m, must be >= 0)"},
     {"SpeedNegative", one_joint(R"(<limit effort="1" velocity="-0.5"/>)", "prismatic"),
-     "x.urdf: joint \"j\": velocity limit -0.5 m/s, must be >= 0"},
+     R"(x.urdf: joint "j": velocity limit -0.5 m/s, must be >= 0)"},
     {"LimitsCrossed", one_joint(R"(<limit lower="1" upper="0.5" effort="1" velocity="1"/>)"),
-     "x.urdf: joint \"j\": lower limit 1 rad, must be <= upper limit 0.5 rad"},
+     R"(x.urdf: joint "j": lower limit 1 rad, must be <= upper limit 0.5 rad)"},
 
     {"Capsule", shape("collision", R"(<capsule radius="1" length="1"/>)"),
      "x.urdf: Unknown geometry type 'capsule'; Could not parse collision element for Link [a]"},
     {"NoGeometry", robot(link("a", "<visual/>")),
      "x.urdf: Could not parse visual element for Link [a]"},
     {"BoxFlat", shape("collision", R"(<box size="1 0 1"/>)"),
-     "x.urdf: link \"a\": collision: box of size 1 0 1 m, must all be > 0"},
+     R"(x.urdf: link "a": collision: box of size 1 0 1 m, must all be > 0)"},
     {"CylinderThin", shape("visual", R"(<cylinder radius="0" length="1"/>)"),
-     "x.urdf: link \"a\": visual: cylinder of radius 0 m and length 1 m, must be > 0"},
+     R"(x.urdf: link "a": visual: cylinder of radius 0 m and length 1 m, must be > 0)"},
     {"SphereNegative", shape("visual", R"(<sphere radius="-1"/>)"),
-     "x.urdf: link \"a\": visual: sphere of radius -1 m, must be > 0"},
+     R"(x.urdf: link "a": visual: sphere of radius -1 m, must be > 0)"},
     {"MeshMissing", shape("visual", R"(<mesh filename="no.obj"/>)"),
-     "x.urdf: link \"a\": visual: mesh \"no.obj\" not found, looked for no.obj"},
+     R"(x.urdf: link "a": visual: mesh "no.obj" not found, looked for no.obj)"},
     {"MeshWithoutPackage", shape("visual", R"(<mesh filename="package://none/no.obj"/>)"),
-     "x.urdf: link \"a\": visual: mesh \"package://none/no.obj\" not found, no folder to look in"},
+     R"(x.urdf: link "a": visual: mesh "package://none/no.obj" not found, no folder to look in)"},
     {"MeshFromTheNet", shape("visual", R"(<mesh filename="http://x/no.obj"/>)"),
-     "x.urdf: link \"a\": visual: mesh \"http://x/no.obj\" not found, no folder to look in"},
+     R"(x.urdf: link "a": visual: mesh "http://x/no.obj" not found, no folder to look in)"},
     {"MeshIsAFolder", shape("visual", R"(<mesh filename="."/>)"),
-     "x.urdf: link \"a\": visual: mesh \".\" not found, looked for "},
+     R"(x.urdf: link "a": visual: mesh "." not found, looked for )"},
     {"MeshWithoutScale", shape("visual", R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),
-     "x.urdf: link \"a\": visual: mesh \"x.urdf\" of scale 1 0 1, must not be 0"},
+     R"(x.urdf: link "a": visual: mesh "x.urdf" of scale 1 0 1, must not be 0)"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Urdf, RobotModelRefuses, testing::ValuesIn(refusals),
@@ -259,14 +264,14 @@ TEST(RobotModel, NamesWhatThereIsWhenAskedForWhatIsNot) {
     model.joint("wrist");
     FAIL();
   } catch (const seam::Error& error) {
-    EXPECT_STREQ(error.what(), "robot \"planar_arm\": no joint \"wrist\", it has shoulder elbow");
+    EXPECT_STREQ(error.what(), R"(robot "planar_arm": no joint "wrist", it has shoulder elbow)");
   }
   try {
     model.frame("hand");
     FAIL();
   } catch (const seam::Error& error) {
     EXPECT_STREQ(error.what(),
-                 "robot \"planar_arm\": no link \"hand\", it has base upper lower tool");
+                 R"(robot "planar_arm": no link "hand", it has base upper lower tool)");
   }
 }
 
@@ -306,7 +311,7 @@ TEST(RobotModel, TakesAnInertialOfZerosForNone) {
   EXPECT_EQ(read(inertial("0", "0", "0", "0")).base.inertial.mass, 0.0);
   EXPECT_EQ(refusal(robot(link("a") + link("b", inertial_element("0", "0", "0", "0")) +
                           joint("j", "revolute", "a", "b"))),
-            "x.urdf: link \"b\": has no mass, nor has any link fixed to it, but joint \"j\" moves "
+            R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves )"
             "it: must be > 0");
 }
 
@@ -328,7 +333,7 @@ TEST(RobotModel, LeavesAContinuousJointWithoutLimits) {
 }
 
 TEST(RobotModel, MakesAxesUnitAndTakesUrdfsDefault) {
-  EXPECT_EQ(read(one_joint(std::string(limits) + "<axis xyz=\"0 0 -4\"/>")).joints[0].axis,
+  EXPECT_EQ(read(one_joint(std::string(limits) + R"(<axis xyz="0 0 -4"/>)")).joints[0].axis,
             Vector3d(0, 0, -1));
   EXPECT_EQ(read(one_joint(limits)).joints[0].axis, Vector3d(1, 0, 0));
 }
@@ -364,7 +369,7 @@ class MeshNames : public testing::Test {
   std::string found(const std::string& name,
                     const std::vector<std::string>& package_path = {}) const {
     const std::string file =
-        folder_.write("arm/urdf/x.urdf", shape("visual", "<mesh filename=\"" + name + "\"/>"));
+        folder_.write("arm/urdf/x.urdf", shape("visual", R"(<mesh filename=")" + name + R"("/>)"));
     const auto model = RobotModel::read(file, package_path);
     return std::filesystem::relative(model.base.visuals[0].mesh, folder_.path("")).string();
   }

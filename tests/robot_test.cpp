@@ -1,12 +1,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <InverseDynamics/btMultiBodyTreeCreator.hpp>
+#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
+#include "scenes/world.hpp"
 #include "tests/allocation_guard.hpp"
-#include "tests/bullet_world.hpp"
 #include "tests/kdl_robot.hpp"
 #include "tests/random_robot.hpp"
 #include "tests/temp_folder.hpp"
@@ -64,8 +66,8 @@ VectorXd acceleration_of_a_step(seam::Robot& robot, const VectorXd& torque) {
 double worst_acceleration_error(const std::string& urdf, RandomRobot& random, int states) {
   double worst = 0.0;
   for (const Isometry3d& X_world_base : base_poses(random)) {
-    BulletWorld bullet;
-    auto robot = seam::Robot::load(urdf, bullet.world, without_colliders(X_world_base));
+    seam::World world;
+    auto robot = seam::Robot::load(urdf, *world, without_colliders(X_world_base));
     seam::InverseDynamics dynamics(robot.model());
     dynamics.set_gravity(robot.gravity_in_base());
     VectorXd torque(robot.dof());
@@ -94,13 +96,13 @@ TEST_P(RobotOf, AcceleratesAsItsInverseDynamicsAsksOnAnyBase) {
 
 TEST_P(RobotOf, AgreesWithTheTreeThatBulletMakesFromItsMultibody) {
   namespace id = btInverseDynamics;
-  BulletWorld bullet;
-  const auto robot = seam::Robot::load(GetParam(), bullet.world, without_colliders());
+  seam::World world;
+  const auto robot = seam::Robot::load(GetParam(), *world, without_colliders());
   const seam::InverseDynamics dynamics(robot.model());
   id::btMultiBodyTreeCreator creator;
   ASSERT_EQ(creator.createFromBtMultiBody(&robot.multibody(), false), 0);
   const std::unique_ptr<id::MultiBodyTree> tree(id::CreateMultiBodyTree(creator));
-  tree->setGravityInWorldFrame(bullet.world.getGravity());
+  tree->setGravityInWorldFrame(world->getGravity());
 
   const unsigned seed = 22;
   RandomRobot random(seed);
@@ -126,8 +128,8 @@ TEST_P(RobotOf, PlacesEveryLinkWhereOrocosKdlDoes) {
   RandomRobot random(seed);
   const KdlRobot kdl(GetParam());
   for (const Isometry3d& X_world_base : base_poses(random)) {
-    BulletWorld bullet;
-    auto robot = seam::Robot::load(GetParam(), bullet.world, without_colliders(X_world_base));
+    seam::World world;
+    auto robot = seam::Robot::load(GetParam(), *world, without_colliders(X_world_base));
     for (int state = 0; state < 20; ++state) {
       const VectorXd q = random.vector(robot.dof(), 3.0);
       robot.reset(q, VectorXd::Zero(robot.dof()));
@@ -161,12 +163,11 @@ TEST(Robot, AcceleratesAsAskedOnRandomTrees) {
 // is of order dt.
 TEST(Robot, LosesNoEnergyAsItSwings) {
   const auto drift = [](double dt) {
-    BulletWorld bullet;
-    auto robot =
-        seam::Robot::load(SEAM_TEST_DATA "/pendulum.urdf", bullet.world, without_colliders());
+    seam::World world;
+    auto robot = seam::Robot::load(SEAM_TEST_DATA "/pendulum.urdf", *world, without_colliders());
     robot.reset(VectorXd::Constant(1, 2.0), VectorXd::Zero(1));
     VectorXd q(1), qd(1);
-    for (int i = 0; i < std::lround(10.0 / dt); ++i) bullet.world.stepSimulation(btScalar(dt), 0);
+    for (int i = 0; i < std::lround(10.0 / dt); ++i) world->stepSimulation(btScalar(dt), 0);
     robot.state(q, qd);
     const double energy = 0.5 * 0.53 * qd[0] * qd[0] - 2.0 * 9.81 * 0.5 * std::cos(q[0]);
     return std::abs(energy + 2.0 * 9.81 * 0.5 * std::cos(2.0));
@@ -176,12 +177,12 @@ TEST(Robot, LosesNoEnergyAsItSwings) {
 }
 
 TEST(Robot, StaysAwakeWithoutMotion) {
-  BulletWorld bullet;
-  auto robot = seam::Robot::load(shapes, bullet.world);
-  bullet.world.setGravity(btVector3(0, 0, 0));
-  for (int i = 0; i < 5000; ++i) bullet.world.stepSimulation(btScalar(1e-3), 0);
+  seam::World world;
+  auto robot = seam::Robot::load(shapes, *world);
+  world->setGravity(btVector3(0, 0, 0));
+  for (int i = 0; i < 5000; ++i) world->stepSimulation(btScalar(1e-3), 0);
   robot.multibody().addJointTorque(0, btScalar(1));
-  bullet.world.stepSimulation(btScalar(1e-3), 0);
+  world->stepSimulation(btScalar(1e-3), 0);
   EXPECT_GT(robot.multibody().getJointVel(0), 0.0);
 }
 
@@ -206,15 +207,14 @@ TEST(Robot, PutsItsShapesWhereTheUrdfSaysOnARotatedBase) {
   RandomRobot random(seed);
   const KdlRobot kdl(shapes);
   for (const Isometry3d& X_world_base : base_poses(random)) {
-    BulletWorld bullet;
+    seam::World world;
     seam::RobotSettings settings;
     settings.X_world_base = X_world_base;
-    auto robot = seam::Robot::load(shapes, bullet.world, settings);
+    auto robot = seam::Robot::load(shapes, *world, settings);
     const VectorXd q = random.vector(robot.dof(), 0.5);
     robot.reset(q, VectorXd::Zero(robot.dof()));
     const auto hit = [&](const std::string& link, const Vector3d& axis) {
-      return hit_along(bullet.world, X_world_base * kdl.pose(joint_names(robot.model()), q, link),
-                       axis);
+      return hit_along(*world, X_world_base * kdl.pose(joint_names(robot.model()), q, link), axis);
     };
     const double accuracy = 2e-3;
     EXPECT_LE((hit("box", Vector3d::UnitX()) - Vector3d(0.05, 0, 0)).norm(), accuracy);
@@ -249,60 +249,60 @@ std::string three_balls() {
       R"(<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)"
       R"(<collision><geometry><sphere radius="0.1"/></geometry></collision></link>)";
   const auto joint = [](const std::string& parent, const std::string& child) {
-    return "<joint name=\"to_" + child + "\" type=\"continuous\"><parent link=\"" + parent +
-           "\"/><child link=\"" + child + "\"/></joint>";
+    return R"(<joint name="to_)" + child + R"(" type="continuous"><parent link=")" + parent +
+           R"("/><child link=")" + child + R"("/></joint>)";
   };
-  return "<robot name=\"balls\"><link name=\"a\">" + ball + "<link name=\"b\">" + ball +
-         "<link name=\"c\">" + ball + joint("a", "b") + joint("b", "c") + "</robot>";
+  return R"(<robot name="balls"><link name="a">)" + ball + R"(<link name="b">)" + ball +
+         R"(<link name="c">)" + ball + joint("a", "b") + joint("b", "c") + "</robot>";
 }
 
 TEST(Robot, CollidesWithItselfExceptBetweenNeighbours) {
   const TempFolder folder;
   const std::string file = folder.write("balls.urdf", three_balls());
-  BulletWorld bullet;
+  seam::World world;
   {
-    const auto robot = seam::Robot::load(file, bullet.world);
-    EXPECT_EQ(touching(bullet.world), "-1-1 ");
+    const auto robot = seam::Robot::load(file, *world);
+    EXPECT_EQ(touching(*world), "-1-1 ");
   }
   seam::RobotSettings settings;
   settings.self_collision = false;
-  const auto robot = seam::Robot::load(file, bullet.world, settings);
-  EXPECT_EQ(touching(bullet.world), "");
+  const auto robot = seam::Robot::load(file, *world, settings);
+  EXPECT_EQ(touching(*world), "");
 }
 
 TEST(Robot, DoesNotTouchItselfAsThePa10StandsUpright) {
-  BulletWorld bullet;
-  const auto robot = seam::Robot::load(pa10, bullet.world);
-  EXPECT_EQ(touching(bullet.world), "");
+  seam::World world;
+  const auto robot = seam::Robot::load(pa10, *world);
+  EXPECT_EQ(touching(*world), "");
 }
 
 TEST(Robot, CarriesWhatFallsOnItsBase) {
-  BulletWorld bullet;
-  const auto robot = seam::Robot::load(shapes, bullet.world);
+  seam::World world;
+  const auto robot = seam::Robot::load(shapes, *world);
   btSphereShape shape(btScalar(0.05));
   btRigidBody ball(
       btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &shape, btVector3(1, 1, 1)));
   ball.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(0.3))));
-  bullet.world.addRigidBody(&ball);
-  for (int i = 0; i < 1000; ++i) bullet.world.stepSimulation(btScalar(1e-3), 0);
+  world->addRigidBody(&ball);
+  for (int i = 0; i < 1000; ++i) world->stepSimulation(btScalar(1e-3), 0);
   EXPECT_NEAR(ball.getWorldTransform().getOrigin().z(), 0.1 + 0.05, 5e-3);
-  bullet.world.removeRigidBody(&ball);
+  world->removeRigidBody(&ball);
 }
 
 TEST(Robot, LeavesTheWorldEmptyWhenItIsDestroyed) {
-  BulletWorld bullet;
+  seam::World world;
   {
-    seam::Robot first = seam::Robot::load(shapes, bullet.world);
+    seam::Robot first = seam::Robot::load(shapes, *world);
     seam::Robot second = std::move(first);
-    const seam::Robot third = seam::Robot::load(skew_tree, bullet.world);
-    second = seam::Robot::load(pa10, bullet.world);
-    bullet.world.stepSimulation(btScalar(1e-3), 0);
-    EXPECT_EQ(bullet.world.getNumMultibodies(), 2);
-    EXPECT_EQ(bullet.world.getNumCollisionObjects(), 8);
+    const seam::Robot third = seam::Robot::load(skew_tree, *world);
+    second = seam::Robot::load(pa10, *world);
+    world->stepSimulation(btScalar(1e-3), 0);
+    EXPECT_EQ(world->getNumMultibodies(), 2);
+    EXPECT_EQ(world->getNumCollisionObjects(), 8);
   }
-  EXPECT_EQ(bullet.world.getNumMultibodies(), 0);
-  EXPECT_EQ(bullet.world.getNumCollisionObjects(), 0);
-  EXPECT_EQ(bullet.dispatcher.getNumManifolds(), 0);
+  EXPECT_EQ(world->getNumMultibodies(), 0);
+  EXPECT_EQ(world->getNumCollisionObjects(), 0);
+  EXPECT_EQ(world->getDispatcher()->getNumManifolds(), 0);
 }
 
 TEST(Robot, LeavesTheWorldAloneWhenAMeshCannotBeRead) {
@@ -311,15 +311,15 @@ TEST(Robot, LeavesTheWorldAloneWhenAMeshCannotBeRead) {
   const std::string file = folder.write(
       "x.urdf",
       R"(<robot name="r"><link name="a"><collision><geometry><mesh filename="m.obj"/></geometry></collision></link></robot>)");
-  BulletWorld bullet;
-  EXPECT_THROW(seam::Robot::load(file, bullet.world), seam::Error);
-  EXPECT_EQ(bullet.world.getNumMultibodies(), 0);
-  EXPECT_EQ(bullet.world.getNumCollisionObjects(), 0);
+  seam::World world;
+  EXPECT_THROW(seam::Robot::load(file, *world), seam::Error);
+  EXPECT_EQ(world->getNumMultibodies(), 0);
+  EXPECT_EQ(world->getNumCollisionObjects(), 0);
 }
 
 TEST(Robot, GivesBackTheStateItIsResetTo) {
-  BulletWorld bullet;
-  auto robot = seam::Robot::load(skew_tree, bullet.world);
+  seam::World world;
+  auto robot = seam::Robot::load(skew_tree, *world);
   const VectorXd q = VectorXd::LinSpaced(robot.dof(), -0.3, 0.3),
                  qd = VectorXd::LinSpaced(robot.dof(), 1.0, 2.0);
   robot.reset(q, qd);
@@ -330,8 +330,8 @@ TEST(Robot, GivesBackTheStateItIsResetTo) {
 }
 
 TEST(Robot, AllocatesNothingWhenAskedForItsState) {
-  BulletWorld bullet;
-  auto robot = seam::Robot::load(pa10, bullet.world);
+  seam::World world;
+  auto robot = seam::Robot::load(pa10, *world);
   const seam::Frame& tool = robot.model().frame("tool");
   VectorXd q(7), qd(7);
   double sum = 0.0;
@@ -343,22 +343,22 @@ TEST(Robot, AllocatesNothingWhenAskedForItsState) {
 }
 
 TEST(Robot, TellsGravityInItsBase) {
-  BulletWorld bullet;
+  seam::World world;
   Isometry3d on_the_wall = Isometry3d::Identity();
   on_the_wall.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
-  const auto robot = seam::Robot::load(planar_arm, bullet.world, without_colliders(on_the_wall));
+  const auto robot = seam::Robot::load(planar_arm, *world, without_colliders(on_the_wall));
   EXPECT_LE((robot.gravity_in_base() - Vector3d(0, -9.81, 0)).norm(), 1e-14);
 }
 
 TEST(Robot, MayHaveNoJoints) {
   const TempFolder folder;
-  BulletWorld bullet;
+  seam::World world;
   const std::string file = folder.write(
       "t.urdf",
       R"(<robot name="table"><link name="top"><collision><geometry><box size="1 1 0.1"/></geometry></collision></link></robot>)");
-  auto robot = seam::Robot::load(file, bullet.world);
+  auto robot = seam::Robot::load(file, *world);
   EXPECT_EQ(robot.dof(), 0);
-  bullet.world.stepSimulation(btScalar(1e-3), 0);
+  world->stepSimulation(btScalar(1e-3), 0);
   EXPECT_EQ(robot.X_world_frame(robot.model().frame("top")).matrix(), Eigen::Matrix4d::Identity());
 }
 

@@ -1,10 +1,9 @@
-#include <seam/sequencer.hpp>
-
 #include <gmock/gmock.h>
 
 #include "tests/allocation_guard.hpp"
 #include "tests/ode.hpp"
 #include "tests/support.hpp"
+#include <seam/sequencer.hpp>
 
 namespace seam {
 namespace {
@@ -44,7 +43,10 @@ TEST(Sequencer, StepsInAccelerationWithDmp2) {
   Sequencer sequencer(played.sequence, Join::dmp2, played.start);
   while (!sequencer.finished()) sequencer.step(1e-3);
   for (int i = 0; i < 2; ++i)
-    EXPECT_GT((sequencer.join(i).acceleration_after - sequencer.join(i).acceleration_before).cwiseAbs().maxCoeff(), 1.0);
+    EXPECT_GT((sequencer.join(i).acceleration_after - sequencer.join(i).acceleration_before)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1.0);
 }
 
 TEST(Sequencer, HoldsTheStartUntilTheFirstPrimitiveBegins) {
@@ -60,7 +62,8 @@ TEST(Sequencer, HoldsTheStartUntilTheFirstPrimitiveBegins) {
   EXPECT_EQ(sequencer.joins(), 1);
 }
 
-// A switch between two ticks happens at its own time: the path does not depend on where the ticks lie.
+// A switch between two ticks happens at its own time: the path does not depend on where the ticks
+// lie.
 TEST(Sequencer, SwitchesInsideAStepExactlyWhenDue) {
   const Played played(22, 0.0, 0.6003);
   Sequencer aligned(played.sequence, Join::dmp2a, played.start);
@@ -81,13 +84,15 @@ TEST(Sequencer, TakesSeveralSwitchesWithinOneStep) {
   EXPECT_LT((sequencer.sample().position - played.sequence.steps()[1].primitive.goal).norm(), 1e-3);
 }
 
-// The whole sequence against an independent solution, joined by Eq. 6 written out here in its printed form.
+// The whole sequence against an independent solution, joined by Eq. 6 written out here in its
+// printed form.
 TEST(Sequencer, AgreesWithAnIndependentSolutionOfTheWholeSequence) {
   const Played played(24);
   Sequencer sequencer(played.sequence, Join::dmp3, played.start);
   const Primitive& first = played.sequence.steps()[0].primitive;
   const Primitive& second = played.sequence.steps()[1].primitive;
-  const auto joined = [](const Primitive& primitive, int d, test::Ode::Real y, test::Ode::Real yd, test::Ode::Real ydd) {
+  const auto joined = [](const Primitive& primitive, int d, test::Ode::Real y, test::Ode::Real yd,
+                         test::Ode::Real ydd) {
     test::Ode ode(primitive, d, static_cast<double>(y), static_cast<double>(yd));
     ode.y = y, ode.yd = yd;
     const auto& g = primitive.gains;
@@ -116,7 +121,8 @@ TEST(Sequencer, RefusesAStartThatDoesNotFit) {
   EXPECT_EQ(refused(start), "sequencer: start is not finite");
   EXPECT_EQ(refused(Sample(3)), "sequencer: start has 3 coordinates, the sequence 2");
   start.velocity(0) = 0.1;
-  EXPECT_EQ(refused(start), "sequencer: start moves, must be at rest where the first primitive is delayed");
+  EXPECT_EQ(refused(start),
+            "sequencer: start moves, must be at rest where the first primitive is delayed");
 }
 
 TEST(Sequencer, StepsWithoutAllocating) {

@@ -8,11 +8,10 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "tests/temp_folder.hpp"
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>
 #include <seam/learn.hpp>
-
-#include "tests/temp_folder.hpp"
 
 namespace seam::test {
 
@@ -34,9 +33,14 @@ inline std::string read_file(const std::string& path) {
 
 /// A demonstration with exact derivatives, sampled every 1 ms.
 /// @param curve  position, velocity and acceleration at a time
-inline Demonstration demonstrate(double duration, const std::function<Eigen::Vector3d(double)>& curve) {
+inline Demonstration demonstrate(double duration,
+                                 const std::function<Eigen::Vector3d(double)>& curve) {
   const int N = static_cast<int>(std::lround(duration * 1000.0)) + 1;
-  Demonstration demo{{"y"}, Eigen::VectorXd(N), Eigen::MatrixXd(N, 1), Eigen::MatrixXd(N, 1), Eigen::MatrixXd(N, 1)};
+  Demonstration demo{{"y"},
+                     Eigen::VectorXd(N),
+                     Eigen::MatrixXd(N, 1),
+                     Eigen::MatrixXd(N, 1),
+                     Eigen::MatrixXd(N, 1)};
   for (int i = 0; i < N; ++i) {
     const double t = duration * i / (N - 1);
     const Eigen::Vector3d at = curve(t);
@@ -52,9 +56,10 @@ inline Demonstration demonstrate(double duration, const std::function<Eigen::Vec
 inline Demonstration minimum_jerk(double distance = 1.0, double duration = 1.0) {
   return demonstrate(duration, [=](double t) {
     const double s = t / duration;
-    return Eigen::Vector3d(distance * s * s * s * (10.0 + s * (-15.0 + 6.0 * s)),
-                           distance * 30.0 * s * s * (1.0 - s) * (1.0 - s) / duration,
-                           distance * 60.0 * s * (1.0 + s * (-3.0 + 2.0 * s)) / (duration * duration));
+    return Eigen::Vector3d(
+        distance * s * s * s * (10.0 + s * (-15.0 + 6.0 * s)),
+        distance * 30.0 * s * s * (1.0 - s) * (1.0 - s) / duration,
+        distance * 60.0 * s * (1.0 + s * (-3.0 + 2.0 * s)) / (duration * duration));
   });
 }
 
@@ -62,13 +67,15 @@ inline Demonstration minimum_jerk(double distance = 1.0, double duration = 1.0) 
 inline Primitive random_primitive(std::mt19937_64& random, int dimensions, int kernels = 10) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&](double scale) {
-    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(dimensions, [&] { return scale * uniform(random); }));
+    return Eigen::VectorXd(
+        Eigen::VectorXd::NullaryExpr(dimensions, [&] { return scale * uniform(random); }));
   };
   Primitive primitive;
   for (int d = 0; d < dimensions; ++d) primitive.coordinates.push_back("y" + std::to_string(d));
   primitive.gains = Gains::critical(200.0 + 100.0 * uniform(random));
   primitive.tau = 1.0 + 0.6 * uniform(random);
-  primitive.kernels = Kernels::even_in_time(kernels, 0.75 + 0.25 * uniform(random), primitive.alpha);
+  primitive.kernels =
+      Kernels::even_in_time(kernels, 0.75 + 0.25 * uniform(random), primitive.alpha);
   primitive.weights =
       Eigen::MatrixXd::NullaryExpr(kernels, dimensions, [&] { return 200.0 * uniform(random); });
   primitive.goal = vector(1.0);

@@ -1,6 +1,6 @@
-#include <seam/computed_torque.hpp>
-
 #include <utility>
+
+#include <seam/computed_torque.hpp>
 
 namespace seam {
 
@@ -15,7 +15,8 @@ void ComputedTorque::torque(double dt, const Eigen::VectorXd& q, const Eigen::Ve
                             Eigen::VectorXd& torque) noexcept {
   next_velocity_ = (next - now.position) / dt;
   if (settings_.reference == ControlSettings::Reference::matched)
-    acceleration_ = (next_velocity_ - matched_velocity_) / dt + settings_.Kd * (matched_velocity_ - qd);
+    acceleration_ =
+        (next_velocity_ - matched_velocity_) / dt + settings_.Kd * (matched_velocity_ - qd);
   else
     acceleration_ = now.acceleration + settings_.Kd * (now.velocity - qd);
   acceleration_ += settings_.Kp * (now.position - q);

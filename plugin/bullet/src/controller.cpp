@@ -1,9 +1,8 @@
-#include <seam/controller.hpp>
-
 #include <cmath>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include <seam/controller.hpp>
 #include <seam/error.hpp>
 #include <seam/plugin.hpp>
 
@@ -13,7 +12,8 @@ namespace {
 
 std::vector<Eigen::Index> joints_of(const Sequence& sequence, const RobotModel& model) {
   std::vector<Eigen::Index> joints;
-  for (const std::string& coordinate : sequence.coordinates()) joints.push_back(model.joint(coordinate));
+  for (const std::string& coordinate : sequence.coordinates())
+    joints.push_back(model.joint(coordinate));
   return joints;
 }
 
@@ -50,14 +50,20 @@ const ControlSettings& valid(const ControlSettings& settings) {
   return settings;
 }
 
-// Bullet clears joint torques once per stepSimulation, not per substep. The base of a fixed-base multibody bears a
-// torque that moves nothing and is cleared with them: a mark there tells whether ours still stands.
-bool torque_still_stands(const btMultiBody& multibody) { return multibody.getBaseTorque().x() != 0.0; }
-void mark_torque(btMultiBody& multibody) { multibody.addBaseTorque(btVector3(1.0, 0.0, 0.0)); }
+// Bullet clears joint torques once per stepSimulation, not per substep. The base of a fixed-base
+// multibody bears a torque that moves nothing and is cleared with them: a mark there tells whether
+// ours still stands.
+bool torque_still_stands(const btMultiBody& multibody) {
+  return multibody.getBaseTorque().x() != 0.0;
+}
+void mark_torque(btMultiBody& multibody) {
+  multibody.addBaseTorque(btVector3(1.0, 0.0, 0.0));
+}
 
 }  // namespace
 
-Controller::Controller(Robot& robot, const Sequence& sequence, Join method, const ControlSettings& settings)
+Controller::Controller(Robot& robot, const Sequence& sequence, Join method,
+                       const ControlSettings& settings)
     : robot_(robot),
       joints_(joints_of(sequence, robot.model())),
       sequencer_(sequence, method, selected(measured(robot), joints_)),

@@ -1,10 +1,9 @@
-#include <seam/plugin.hpp>
-
 #include <algorithm>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <seam/controller.hpp>
+#include <seam/plugin.hpp>
 
 namespace seam {
 

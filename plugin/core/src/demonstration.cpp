@@ -1,10 +1,9 @@
-#include <seam/demonstration.hpp>
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/QR>
 
+#include <seam/demonstration.hpp>
 #include <seam/error.hpp>
 #include <seam/table.hpp>
 
@@ -23,11 +22,12 @@ void require_well_formed(const Demonstration& demo) {
     throw Error(place, "positions must be samples x coordinates");
   if (N < fit_samples)
     throw Error(place, std::to_string(N) + " samples, must be >= " + std::to_string(fit_samples));
-  if (!demo.time.allFinite() || !demo.position.allFinite()) throw Error(place, "a value is not finite");
+  if (!demo.time.allFinite() || !demo.position.allFinite())
+    throw Error(place, "a value is not finite");
   for (Eigen::Index i = 1; i < N; ++i)
     if (!(demo.time(i) > demo.time(i - 1)))
-      throw Error(place, "sample " + std::to_string(i + 1) + ": time " + std::to_string(demo.time(i)) +
-                             " s does not increase");
+      throw Error(place, "sample " + std::to_string(i + 1) + ": time " +
+                             std::to_string(demo.time(i)) + " s does not increase");
 }
 
 struct Range {
@@ -50,7 +50,8 @@ Range fit_range(const Eigen::VectorXd& time, Eigen::Index i, double window) {
 void fit_derivatives(Demonstration& demo, Eigen::Index i, const Range& range) {
   const double scale = std::max(demo.time(i) - demo.time(range.first),
                                 demo.time(range.first + range.count - 1) - demo.time(i));
-  const Eigen::ArrayXd u = (demo.time.segment(range.first, range.count).array() - demo.time(i)) / scale;
+  const Eigen::ArrayXd u =
+      (demo.time.segment(range.first, range.count).array() - demo.time(i)) / scale;
   Eigen::MatrixXd powers(range.count, 4);
   powers << Eigen::VectorXd::Ones(range.count), u.matrix(), u.square().matrix(), u.cube().matrix();
   const Eigen::MatrixXd fit =
@@ -61,8 +62,8 @@ void fit_derivatives(Demonstration& demo, Eigen::Index i, const Range& range) {
 
 }  // namespace
 
-Demonstration Demonstration::from_positions(std::vector<std::string> coordinates, Eigen::VectorXd time,
-                                            Eigen::MatrixXd position,
+Demonstration Demonstration::from_positions(std::vector<std::string> coordinates,
+                                            Eigen::VectorXd time, Eigen::MatrixXd position,
                                             const DerivativeSettings& settings) {
   Demonstration demo{std::move(coordinates), std::move(time), std::move(position), {}, {}};
   require_well_formed(demo);
@@ -76,7 +77,8 @@ Demonstration Demonstration::from_positions(std::vector<std::string> coordinates
 Demonstration Demonstration::read(const std::string& path, const DerivativeSettings& settings) {
   const Table table = Table::read(path);
   if (table.columns.front() != "time")
-    throw Error(path + ":1", "first column \"" + table.columns.front() + "\", must be \"time\" [s]");
+    throw Error(path + ":1",
+                "first column \"" + table.columns.front() + "\", must be \"time\" [s]");
   for (Eigen::Index i = 1; i < table.values.rows(); ++i)
     if (!(table.values(i, 0) > table.values(i - 1, 0)))
       throw Error(path + ":" + std::to_string(i + 2), "column \"time\": does not increase");

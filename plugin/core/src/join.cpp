@@ -1,14 +1,16 @@
-#include <seam/join.hpp>
-
 #include <seam/error.hpp>
+#include <seam/join.hpp>
 
 namespace seam {
 
 std::string_view to_string(Join method) noexcept {
   switch (method) {
-    case Join::dmp2: return "dmp2";
-    case Join::dmp2a: return "dmp2a";
-    case Join::dmp3: return "dmp3";
+    case Join::dmp2:
+      return "dmp2";
+    case Join::dmp2a:
+      return "dmp2a";
+    case Join::dmp3:
+      return "dmp3";
   }
   return "";
 }

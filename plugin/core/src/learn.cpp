@@ -1,9 +1,8 @@
-#include <seam/learn.hpp>
-
 #include <Eigen/QR>
 
 #include <seam/basis.hpp>
 #include <seam/error.hpp>
+#include <seam/learn.hpp>
 
 namespace seam {
 
@@ -14,7 +13,8 @@ Eigen::MatrixXd regressor_matrix(const Demonstration& demo, const Primitive& pri
   Eigen::MatrixXd A(demo.samples(), basis.count());
   Eigen::ArrayXd row(basis.count());
   for (int i = 0; i < demo.samples(); ++i) {
-    basis.regressor(basis.advance(basis.start_phase(), demo.time(i) - demo.time(0), primitive.tau), row);
+    basis.regressor(basis.advance(basis.start_phase(), demo.time(i) - demo.time(0), primitive.tau),
+                    row);
     A.row(i) = row.matrix().transpose();
   }
   return A;

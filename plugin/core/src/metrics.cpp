@@ -1,9 +1,8 @@
-#include <seam/metrics.hpp>
-
 #include <cmath>
 #include <limits>
 
 #include <seam/error.hpp>
+#include <seam/metrics.hpp>
 
 namespace seam {
 
@@ -13,8 +12,8 @@ constexpr int line_ticks = 3;
 constexpr int gap_ticks = 2;
 
 // The least-squares line through three even ticks from `first` on, at a time.
-Eigen::RowVectorXd line_at(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal, Eigen::Index first,
-                           double at) {
+Eigen::RowVectorXd line_at(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal,
+                           Eigen::Index first, double at) {
   const auto rows = signal.middleRows(first, line_ticks);
   const Eigen::RowVectorXd slope = (rows.row(2) - rows.row(0)) / (time(first + 2) - time(first));
   return rows.colwise().mean() + slope * (at - time(first + 1));
@@ -24,7 +23,9 @@ Eigen::MatrixXd rate(const Eigen::MatrixXd& signal, double dt) {
   return (signal.bottomRows(signal.rows() - 1) - signal.topRows(signal.rows() - 1)) / dt;
 }
 
-double peak(const Eigen::MatrixXd& signal) { return signal.cwiseAbs().maxCoeff(); }
+double peak(const Eigen::MatrixXd& signal) {
+  return signal.cwiseAbs().maxCoeff();
+}
 
 double worst_rms(const Eigen::MatrixXd& signal) {
   return std::sqrt(signal.array().square().colwise().mean().maxCoeff());
@@ -42,7 +43,9 @@ Eigen::VectorXd jump(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal,
   return line_at(time, signal, after, at) - line_at(time, signal, before, at);
 }
 
-double jump_order(double at_dt, double at_half_dt) { return std::log2(at_dt / at_half_dt); }
+double jump_order(double at_dt, double at_half_dt) {
+  return std::log2(at_dt / at_half_dt);
+}
 
 JoinMetrics measure(const Recording& recording, const RecordedJoin& join) {
   const Eigen::VectorXd torque_jump = jump(recording.time, recording.torque, join.time).cwiseAbs();

@@ -1,8 +1,7 @@
-#include <seam/primitive.hpp>
-
 #include <set>
 
 #include <seam/error.hpp>
+#include <seam/primitive.hpp>
 
 namespace seam {
 
@@ -26,12 +25,13 @@ void require(bool holds, const std::string& what) {
 }
 
 void require_positive(double value, const std::string& name) {
-  require(std::isfinite(value) && value > 0.0, name + " " + std::to_string(value) + ", must be > 0");
+  require(std::isfinite(value) && value > 0.0,
+          name + " " + std::to_string(value) + ", must be > 0");
 }
 
 void require_vector(const Eigen::VectorXd& value, Eigen::Index size, const std::string& name) {
-  require(value.size() == size, name + " has " + std::to_string(value.size()) + " entries, must have " +
-                                    std::to_string(size));
+  require(value.size() == size, name + " has " + std::to_string(value.size()) +
+                                    " entries, must have " + std::to_string(size));
   require(value.allFinite(), name + " has an entry that is not finite");
 }
 
@@ -40,8 +40,9 @@ void require_vector(const Eigen::VectorXd& value, Eigen::Index size, const std::
 void Primitive::validate() const {
   require(dimensions() > 0, "no coordinates");
   const auto size = static_cast<std::size_t>(dimensions());
-  require(coordinates.size() == size, std::to_string(coordinates.size()) + " coordinate names for " +
-                                          std::to_string(size) + " goals");
+  require(coordinates.size() == size, std::to_string(coordinates.size()) +
+                                          " coordinate names for " + std::to_string(size) +
+                                          " goals");
   const std::set<std::string> names(coordinates.begin(), coordinates.end());
   require(names.size() == size, "coordinate names repeat");
   require_positive(gains.K, "K");
@@ -55,7 +56,8 @@ void Primitive::validate() const {
   require(kernels.widths.minCoeff() > 0.0, "a kernel width is not > 0");
   require(weights.rows() == kernels.count() && weights.cols() == dimensions(),
           "weights are " + std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()) +
-              ", must be " + std::to_string(kernels.count()) + " x " + std::to_string(dimensions()));
+              ", must be " + std::to_string(kernels.count()) + " x " +
+              std::to_string(dimensions()));
   require(weights.allFinite(), "weights have an entry that is not finite");
   require_vector(goal, dimensions(), "goal");
   require_vector(start_position, dimensions(), "start_position");

@@ -1,6 +1,6 @@
-#include <seam/propagator.hpp>
-
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include <seam/propagator.hpp>
 
 namespace seam {
 

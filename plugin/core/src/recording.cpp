@@ -1,7 +1,6 @@
-#include <seam/recording.hpp>
-
 #include <utility>
 
+#include <seam/recording.hpp>
 #include <seam/table.hpp>
 
 namespace seam {

@@ -1,14 +1,15 @@
-#include <seam/sequence.hpp>
-
 #include <cmath>
 
 #include <seam/error.hpp>
+#include <seam/sequence.hpp>
 
 namespace seam {
 
 namespace {
 
-std::string name(std::size_t step) { return "sequence: primitive " + std::to_string(step + 1); }
+std::string name(std::size_t step) {
+  return "sequence: primitive " + std::to_string(step + 1);
+}
 
 }  // namespace
 

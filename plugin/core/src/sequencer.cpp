@@ -1,9 +1,8 @@
-#include <seam/sequencer.hpp>
-
 #include <cmath>
 #include <limits>
 
 #include <seam/error.hpp>
+#include <seam/sequencer.hpp>
 
 namespace seam {
 

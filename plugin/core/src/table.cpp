@@ -1,5 +1,3 @@
-#include <seam/table.hpp>
-
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <string_view>
 
 #include <seam/error.hpp>
+#include <seam/table.hpp>
 
 namespace seam {
 
@@ -56,7 +55,8 @@ std::vector<std::string> read_header(const std::string& place, std::string_view 
   for (const std::string_view name : split(line)) {
     if (name.empty())
       throw Error(place, "column " + std::to_string(columns.size() + 1) + " has no name");
-    if (!seen.insert(name).second) throw Error(place, "column \"" + std::string(name) + "\" appears twice");
+    if (!seen.insert(name).second)
+      throw Error(place, "column \"" + std::string(name) + "\" appears twice");
     columns.emplace_back(name);
   }
   return columns;
@@ -67,23 +67,25 @@ double read_number(const std::string& place, const std::string& column, std::str
   double value = 0.0;
   const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (status != std::errc{} || end != field.data() + field.size() || !std::isfinite(value))
-    throw Error(place, "column \"" + column + "\": \"" + std::string(field) + "\", must be a finite number");
+    throw Error(place, "column \"" + column + "\": \"" + std::string(field) +
+                           "\", must be a finite number");
   return value;
 }
 
-void read_row(const std::string& place, const std::vector<std::string>& columns, std::string_view line,
-              std::vector<double>& values) {
+void read_row(const std::string& place, const std::vector<std::string>& columns,
+              std::string_view line, std::vector<double>& values) {
   const auto fields = split(line);
   if (fields.size() != columns.size())
-    throw Error(place, std::to_string(fields.size()) + " fields, must be " + std::to_string(columns.size()) +
-                           " as in the header");
+    throw Error(place, std::to_string(fields.size()) + " fields, must be " +
+                           std::to_string(columns.size()) + " as in the header");
   for (std::size_t c = 0; c < fields.size(); ++c)
     values.push_back(read_number(place, columns[c], fields[c]));
 }
 
 void append_number(std::string& text, double value) {
   char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 17).ptr;
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 17).ptr;
   text.append(digits, end);
 }
 

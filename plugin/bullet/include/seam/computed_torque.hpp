@@ -8,8 +8,9 @@
 namespace seam {
 
 struct ControlSettings {
-  /// `matched`: the acceleration that Bullet's semi-implicit integrator needs to arrive at the next reference
-  /// position exactly. `plain`: the reference acceleration at the present time, which leaves an error of order dt.
+  /// `matched`: the acceleration that Bullet's semi-implicit integrator needs to arrive at the next
+  /// reference position exactly. `plain`: the reference acceleration at the present time, which
+  /// leaves an error of order dt.
   enum class Reference { matched, plain };
 
   double Kp = 400.0;  // [1/s²] feedback on position
@@ -17,8 +18,8 @@ struct ControlSettings {
   Reference reference = Reference::matched;
 };
 
-/// Computed torque: inverse dynamics at an acceleration that follows a joint reference. (q, q̇) in, torque out; it
-/// knows no btMultiBody.
+/// Computed torque: inverse dynamics at an acceleration that follows a joint reference. (q, q̇) in,
+/// torque out; it knows no btMultiBody.
 ///     matched  q̇*ₖ₊₁ = (q_ref[k+1] − q_ref[k])/dt
 ///              q̈ₖ = (q̇*ₖ₊₁ − q̇*ₖ)/dt + Kd(q̇*ₖ − q̇ₖ) + Kp(q_ref[k] − qₖ)
 ///     plain    q̈ₖ = q̈_ref[k] + Kd(q̇_ref[k] − q̇ₖ) + Kp(q_ref[k] − qₖ)

@@ -12,27 +12,30 @@ namespace seam {
 
 class Plugin;
 
-/// Plays a sequence of joint-space primitives on a robot in Bullet. The sequence's coordinates are joint names;
-/// joints that it does not name hold the position they have now.
+/// Plays a sequence of joint-space primitives on a robot in Bullet. The sequence's coordinates are
+/// joint names; joints that it does not name hold the position they have now.
 ///
-/// Once per Bullet tick, before the forces are used, `pre_tick(dt)` reads the state, advances the sequence by dt, and
-/// adds the computed torque to the joints. `Plugin` makes those calls; an app that owns its tick callback makes them
-/// itself. It is right for any number of substeps, and leaves torques alone that the app adds.
-/// The robot is borrowed and must outlive the controller.
+/// Once per Bullet tick, before the forces are used, `pre_tick(dt)` reads the state, advances the
+/// sequence by dt, and adds the computed torque to the joints. `Plugin` makes those calls; an app
+/// that owns its tick callback makes them itself. It is right for any number of substeps, and
+/// leaves torques alone that the app adds. The robot is borrowed and must outlive the controller.
 class Controller {
  public:
-  /// The work of one tick: the state and reference at its beginning, and the torque commanded for it.
+  /// The work of one tick: the state and reference at its beginning, and the torque commanded for
+  /// it.
   struct Tick {
-    double time = 0.0;         // [s] since the controller was made
-    int running = -1;          // index of the running primitive, -1 before the first
-    Sample reference;          // n joints
-    Eigen::VectorXd q, qd;     // n [rad], [rad/s]
-    Eigen::VectorXd torque;    // n [N·m]
+    double time = 0.0;       // [s] since the controller was made
+    int running = -1;        // index of the running primitive, -1 before the first
+    Sample reference;        // n joints
+    Eigen::VectorXd q, qd;   // n [rad], [rad/s]
+    Eigen::VectorXd torque;  // n [N·m]
   };
 
-  /// @throws Error  a coordinate is not a joint of the robot, a goal is outside a joint's limits, an empty sequence,
+  /// @throws Error  a coordinate is not a joint of the robot, a goal is outside a joint's limits,
+  /// an empty sequence,
   ///                gains that are negative or not finite
-  Controller(Robot& robot, const Sequence& sequence, Join method, const ControlSettings& settings = {});
+  Controller(Robot& robot, const Sequence& sequence, Join method,
+             const ControlSettings& settings = {});
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
   ~Controller();
@@ -54,8 +57,8 @@ class Controller {
   Sequencer sequencer_;
   ComputedTorque law_;
   Tick tick_;
-  Eigen::VectorXd next_;              // n, reference position at the end of the tick
-  Eigen::VectorXd applied_;           // n [N·m] that of ours which still stands in the multibody
+  Eigen::VectorXd next_;     // n, reference position at the end of the tick
+  Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody
   Plugin* plugin_ = nullptr;
 };
 

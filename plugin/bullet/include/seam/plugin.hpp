@@ -12,8 +12,9 @@ class Controller;
 /// Calls `pre_tick` of any number of controllers before each of a world's ticks, substeps included.
 ///
 /// A Bullet world has one pre-tick slot and one user pointer, and the plugin takes both
-/// (`setInternalTickCallback(…, isPreTick = true)`). An app that needs them calls `Controller::pre_tick` from its own
-/// callback and leaves the plugin out. The world is borrowed; a controller may go before or after the plugin.
+/// (`setInternalTickCallback(…, isPreTick = true)`). An app that needs them calls
+/// `Controller::pre_tick` from its own callback and leaves the plugin out. The world is borrowed; a
+/// controller may go before or after the plugin.
 class Plugin {
  public:
   explicit Plugin(btMultiBodyDynamicsWorld& world);

@@ -17,8 +17,8 @@ class Basis {
   double advance(double phase, double t, double tau) const noexcept {
     return phase * std::exp(-alpha_ * t / tau);
   }
-  /// a(x) with f(x) = a(x)ᵀw: aⱼ = x·ψⱼ/Σψ (Eq. 2; a row of A in Eq. 15). Exponents are taken relative
-  /// to the largest, so that Σψ never vanishes however far x is from all centres.
+  /// a(x) with f(x) = a(x)ᵀw: aⱼ = x·ψⱼ/Σψ (Eq. 2; a row of A in Eq. 15). Exponents are taken
+  /// relative to the largest, so that Σψ never vanishes however far x is from all centres.
   /// @param row  count() values
   void regressor(double phase, Eigen::Ref<Eigen::ArrayXd> row) const noexcept;
 

@@ -24,9 +24,10 @@ struct Demonstration {
   double duration() const { return time(time.size() - 1) - time(0); }  // [s]
 
   /// Takes derivatives from the positions: around each sample a cubic is fitted by least squares to
-  /// all samples within `window` (to the nearest five where there are fewer, one-sided at the ends).
-  /// Exact for cubics, at even and uneven times.
-  /// @throws Error  fewer than five samples, sizes that do not match, a time that does not increase,
+  /// all samples within `window` (to the nearest five where there are fewer, one-sided at the
+  /// ends). Exact for cubics, at even and uneven times.
+  /// @throws Error  fewer than five samples, sizes that do not match, a time that does not
+  /// increase,
   ///                a value that is not finite
   static Demonstration from_positions(std::vector<std::string> coordinates, Eigen::VectorXd time,
                                       Eigen::MatrixXd position,

@@ -9,11 +9,12 @@
 
 namespace seam {
 
-/// A primitive while it runs: its state, its own copy of the weights, and the integration of Eqs. 1–5.
-/// Construction allocates; nothing after it does.
+/// A primitive while it runs: its state, its own copy of the weights, and the integration of Eqs.
+/// 1–5. Construction allocates; nothing after it does.
 class Execution {
  public:
-  /// Stands at the primitive's own start (phase 1, the demonstration's first position and velocity, r = g).
+  /// Stands at the primitive's own start (phase 1, the demonstration's first position and velocity,
+  /// r = g).
   /// @throws Error  the primitive is not valid
   explicit Execution(const Primitive& primitive);
 
@@ -44,8 +45,8 @@ class Execution {
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
   double elapsed_ = 0.0;
-  Eigen::ArrayXd row_;                                  // M
-  Eigen::ArrayXd offset_, velocity_, lag_;              // y − g, ẏ, r − g
+  Eigen::ArrayXd row_;                      // M
+  Eigen::ArrayXd offset_, velocity_, lag_;  // y − g, ẏ, r − g
   Eigen::ArrayXd f_start_, f_middle_, f_end_;
   Sample sample_;
 };

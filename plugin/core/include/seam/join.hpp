@@ -13,7 +13,8 @@ namespace seam {
 /// How an execution takes over from whatever ran before it.
 enum class Join {
   dmp2,   // y and ẏ continue; ÿ steps
-  dmp2a,  // y, ẏ and ÿ continue: the smallest change of the weights that gives the right forcing (Eq. 21)
+  dmp2a,  // y, ẏ and ÿ continue: the smallest change of the weights that gives the right forcing
+          // (Eq. 21)
   dmp3,   // y, ẏ and ÿ continue: the filtered goal r starts where it gives the right ÿ (Eq. 6)
 };
 
@@ -37,8 +38,9 @@ struct Sample {
   static Sample at_rest(const Eigen::VectorXd& position);
 };
 
-/// The one act behind starting, joining and changing goal or τ: set what the method is free to set so that an
-/// execution continues from a state. v = τẏ always holds; with a = a(p) at the entry phase p:
+/// The one act behind starting, joining and changing goal or τ: set what the method is free to set
+/// so that an execution continues from a state. v = τẏ always holds; with a = a(p) at the entry
+/// phase p:
 ///     dmp2   r = g
 ///     dmp2a  r = g,  w += a·(F − aᵀw)/|a|²,  F = τ²ÿ + τDẏ − K(g − y)      (Eqs. 19, 21)
 ///     dmp3   r = (τ²ÿ + τDẏ − aᵀw)/K + y                                   (Eq. 6)

@@ -18,10 +18,16 @@ struct Switch {
 };
 
 /// A time [s] after the primitive has begun.
-inline Switch after(double seconds) { return {Switch::When::after, seconds}; }
+inline Switch after(double seconds) {
+  return {Switch::When::after, seconds};
+}
 /// A time [s] before the primitive's end, which is tau after its beginning.
-inline Switch before_end(double seconds) { return {Switch::When::before_end, seconds}; }
-inline Switch at_end() { return before_end(0.0); }
+inline Switch before_end(double seconds) {
+  return {Switch::When::before_end, seconds};
+}
+inline Switch at_end() {
+  return before_end(0.0);
+}
 
 /// Primitives in their order and the switches between them, as a value.
 ///

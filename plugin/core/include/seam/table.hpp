@@ -13,10 +13,12 @@ struct Table {
   Eigen::MatrixXd values;            // N × C
 
   /// Reads comma-separated numbers; blanks around them, a final newline and CR LF are allowed.
-  /// @throws Error  names file, line and column: unreadable or empty file, no rows, an empty or repeated
+  /// @throws Error  names file, line and column: unreadable or empty file, no rows, an empty or
+  /// repeated
   ///                column name, too few or too many fields, a field that is not a finite number
   static Table read(const std::string& path);
-  /// Writes 17 significant digits, so that reading gives the same bits. The file appears whole or not at all.
+  /// Writes 17 significant digits, so that reading gives the same bits. The file appears whole or
+  /// not at all.
   /// @throws Error  cannot be written
   void write(const std::string& path) const;
 };

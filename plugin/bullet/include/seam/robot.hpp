@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <seam/robot_model.hpp>
+
+class btMultiBody;
+class btMultiBodyDynamicsWorld;
+
+namespace seam {
+
+struct RobotSettings {
+  Eigen::Isometry3d X_world_base = Eigen::Isometry3d::Identity();  // pose of the URDF's root link
+  std::vector<std::string> package_path;  // where package:// names are looked up first
+  bool colliders = true;                  // give the links collision shapes
+  bool self_collision = true;             // between bodies that no joint joins
+  double friction = 0.5;                  // of the colliders
+};
+
+/// A robot in a Bullet world: the `btMultiBody` made from a URDF, its colliders and shapes, which
+/// it owns. Body i of the model is link i of the multibody and degree of freedom i. A link's frame
+/// is at the body's centre of mass along its principal axes (Bullet's convention); the base's is
+/// the root link's. No damping, no sleep. Bullet clamps joint velocities at ±100 rad/s
+/// (`setMaxCoordinateVelocity`). The URDF's limits are written to the links but, as everywhere in
+/// Bullet, nothing enforces them by itself.
+///
+/// Neighbouring bodies (joined by one joint) do not collide; others do. A mesh collides as its
+/// convex hull. The base belongs to Bullet's static filter group: it meets what moves, not what is
+/// static. The world is borrowed and must outlive the robot.
+class Robot {
+ public:
+  /// @throws Error  see RobotModel::read and load_mesh
+  static Robot load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
+                    const RobotSettings& settings = {});
+  Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSettings& settings = {});
+  Robot(Robot&&) noexcept;
+  Robot& operator=(Robot&&) noexcept;
+  ~Robot();
+
+  const RobotModel& model() const noexcept;
+  int dof() const noexcept { return model().dof(); }
+  btMultiBody& multibody() noexcept;
+  const btMultiBody& multibody() const noexcept;
+  btMultiBodyDynamicsWorld& world() const noexcept;
+
+  /// Joint positions [rad or m] and velocities [rad/s or m/s], dof values each.
+  void state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
+  /// Puts the arm at (q, q̇); colliders and their bounding boxes follow. Forces and torques that
+  /// wait for the next step stay.
+  void reset(const Eigen::Ref<const Eigen::VectorXd>& q,
+             const Eigen::Ref<const Eigen::VectorXd>& qd);
+  /// Pose of the root link in the world, and of any URDF link at the multibody's present state.
+  Eigen::Isometry3d X_world_base() const noexcept;
+  Eigen::Isometry3d X_world_frame(const Frame& frame) const noexcept;
+  /// The world's gravity in the frame of the root link [m/s²].
+  Eigen::Vector3d gravity_in_base() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace seam

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace seam {
+
+/// Mass properties of a body in some frame.
+struct Inertial {
+  double mass = 0.0;                                  // [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();      // [m] centre of mass
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // [kg m²] about the centre of mass
+
+  /// Inertia about the frame's origin: I + m·(|c|²·1 − c·cᵀ).
+  Eigen::Matrix3d about_origin() const;
+};
+
+/// The same body seen from frame a, given in frame b.
+Inertial operator*(const Eigen::Isometry3d& X_a_b, const Inertial& b);
+/// Two bodies of one frame joined rigidly (a payload in a hand, say).
+Inertial operator+(const Inertial& a, const Inertial& b);
+
+/// One shape of a body, as the URDF gives it.
+struct Geometry {
+  enum class Type { box, cylinder, sphere, mesh };
+
+  Type type = Type::sphere;
+  Eigen::Isometry3d X_body_shape = Eigen::Isometry3d::Identity();
+  // [m] box: edges; cylinder: radius, -, length; sphere: radius
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  std::string mesh;                                 // absolute path of the mesh file
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  // of the mesh
+  Eigen::Vector4d colour{0.8, 0.8, 0.8, 1.0};       // RGBA 0…1 (visuals)
+  bool has_colour = false;  // the URDF gives it; else a mesh file's own colours hold
+  std::string link;         // the URDF link it belongs to
+};
+
+/// A rigid body that moves with one joint: the URDF link behind the joint and every link fixed to
+/// it. Its frame is the URDF link's, hence the joint's.
+struct Body {
+  std::string link;   // name of the URDF link behind the joint
+  Inertial inertial;  // all fixed links together, in the body frame
+  std::vector<Geometry> visuals;
+  std::vector<Geometry> collisions;
+};
+
+/// A joint with one degree of freedom, moving body i against its parent body.
+struct Joint {
+  enum class Type { revolute, continuous, prismatic };
+
+  std::string name;
+  Type type = Type::revolute;
+  int parent = -1;  // index of the parent body, -1: the base
+  // pose of the body in its parent at q = 0
+  Eigen::Isometry3d X_parent_body = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit, in the body frame
+  double lower = 0.0, upper = 0.0;                  // [rad or m]; ±infinity if continuous
+  double speed = 0.0;   // [rad/s or m/s]; infinity if continuous and without a limit
+  double effort = 0.0;  // [N·m or N]; likewise
+
+  /// Pose of the body in its parent at q [rad or m].
+  Eigen::Isometry3d X_parent_body_at(double q) const;
+};
+
+/// A named frame (any URDF link) on a body; index -1 is the base.
+struct Frame {
+  std::string name;
+  int body = -1;
+  Eigen::Isometry3d X_body_frame = Eigen::Isometry3d::Identity();
+};
+
+/// A fixed-base robot as plain data, read from a URDF and checked. Links behind fixed joints are
+/// merged into the body that carries them, so that body i, joint i and degree of freedom i are one
+/// index everywhere; the merged links remain as frames. Parents come before their children,
+/// branches in the order of the URDF's <joint> elements.
+struct RobotModel {
+  std::string name;
+  Body base;                  // fixed to the world; needs no mass
+  std::vector<Joint> joints;  // joint i moves body i
+  std::vector<Body> bodies;
+  std::vector<Frame> frames;  // one per URDF link, the root link first
+
+  int dof() const { return static_cast<int>(joints.size()); }
+  /// @throws Error  no joint of that name (lists those there are)
+  int joint(const std::string& joint_name) const;
+  /// @throws Error  no link of that name
+  const Frame& frame(const std::string& link_name) const;
+
+  /// Reads a URDF tree of revolute, continuous, prismatic and fixed joints.
+  ///
+  /// Refused, with file, element and value: what urdfdom refuses or complains of (it drops a link's
+  /// unknown shapes, for one, and calls that success); joints that are floating, planar or mimic;
+  /// links that are not in one tree; a mass ≤ 0 (but an inertial of nothing but zeros counts as
+  /// none: other readers take a link without one for 1 kg); an inertia that is not positive
+  /// definite or breaks the triangle rule; a moving body without mass; a zero axis; lower > upper;
+  /// negative or missing effort or speed; shapes of size ≤ 0; a mesh scale of 0; a mesh file that
+  /// is not found. Values that are not finite never pass urdfdom. A continuous joint has no
+  /// position limits and may go without <limit>. Not read: <dynamics>, <safety_controller>,
+  /// <calibration>, <transmission>, textures; an undefined material counts as none. Mesh names may
+  /// be `package://NAME/…` (folders of `package_path`, then ROS_PACKAGE_PATH, then the folders
+  /// above the URDF), `file://…`, or relative to the URDF.
+  /// @throws Error
+  static RobotModel read(const std::string& urdf_path,
+                         const std::vector<std::string>& package_path = {});
+};
+
+}  // namespace seam

@@ -1,0 +1,153 @@
+#include <cassert>
+
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include "bullet_types.hpp"
+#include "multibody.hpp"
+#include "shapes.hpp"
+#include <seam/robot.hpp>
+
+namespace seam {
+
+struct Robot::Parts {
+  Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world, const RobotSettings& settings);
+  ~Parts();
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  void add_collider(int link, const Body& body, const LinkFrame& frame,
+                    const RobotSettings& settings);
+  void add_to_world();
+  void place_colliders();
+
+  RobotModel model;
+  btMultiBodyDynamicsWorld& world;
+  std::vector<LinkFrame> frames;
+  std::vector<BodyShape> shapes;
+  std::unique_ptr<btMultiBody> multibody;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
+  btAlignedObjectArray<btQuaternion> rotations;  // workspaces of place_colliders
+  btAlignedObjectArray<btVector3> origins;
+};
+
+Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
+                    const RobotSettings& settings)
+    : model(std::move(robot_model)), world(in_world) {
+  for (const Body& body : model.bodies) frames.push_back(link_frame(body.inertial));
+  multibody = make_multibody(model, frames);
+  multibody->setHasSelfCollision(settings.self_collision);
+  multibody->setBaseWorldTransform(bullet_pose(settings.X_world_base));
+  if (settings.colliders) {
+    add_collider(-1, model.base, LinkFrame(), settings);
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+      add_collider(static_cast<int>(i), model.bodies[i], frames[i], settings);
+    }
+  }
+  add_to_world();
+}
+
+Robot::Parts::~Parts() {
+  world.removeMultiBody(multibody.get());
+  for (const auto& collider : colliders) world.removeCollisionObject(collider.get());
+}
+
+void Robot::Parts::add_collider(int link, const Body& body, const LinkFrame& frame,
+                                const RobotSettings& settings) {
+  if (body.collisions.empty()) return;
+  shapes.push_back(make_shape(body.collisions, frame.X_body_link));
+  colliders.push_back(std::make_unique<btMultiBodyLinkCollider>(multibody.get(), link));
+  btMultiBodyLinkCollider& collider = *colliders.back();
+  collider.setCollisionShape(shapes.back().compound.get());
+  collider.setFriction(static_cast<btScalar>(settings.friction));
+  if (link < 0) {
+    multibody->setBaseCollider(&collider);
+  } else {
+    multibody->getLink(link).m_collider = &collider;
+  }
+}
+
+void Robot::Parts::add_to_world() {
+  world.addMultiBody(multibody.get());
+  place_colliders();
+  using Filter = btBroadphaseProxy;
+  for (const auto& collider : colliders) {
+    const bool is_base = collider->m_link < 0;
+    world.addCollisionObject(
+        collider.get(), is_base ? Filter::StaticFilter : Filter::DefaultFilter,
+        is_base ? Filter::AllFilter ^ Filter::StaticFilter : Filter::AllFilter);
+  }
+}
+
+void Robot::Parts::place_colliders() {
+  multibody->forwardKinematics(rotations, origins);
+  multibody->updateCollisionObjectWorldTransforms(rotations, origins);
+  for (const auto& collider : colliders) {
+    if (collider->getBroadphaseHandle()) world.updateSingleAabb(collider.get());
+  }
+}
+
+Robot Robot::load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
+                  const RobotSettings& settings) {
+  return Robot(RobotModel::read(urdf_path, settings.package_path), world, settings);
+}
+
+Robot::Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSettings& settings)
+    : parts_(std::make_unique<Parts>(std::move(model), world, settings)) {}
+Robot::Robot(Robot&&) noexcept = default;
+Robot& Robot::operator=(Robot&&) noexcept = default;
+Robot::~Robot() = default;
+
+const RobotModel& Robot::model() const noexcept {
+  return parts_->model;
+}
+btMultiBody& Robot::multibody() noexcept {
+  return *parts_->multibody;
+}
+const btMultiBody& Robot::multibody() const noexcept {
+  return *parts_->multibody;
+}
+btMultiBodyDynamicsWorld& Robot::world() const noexcept {
+  return parts_->world;
+}
+
+void Robot::state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept {
+  assert(q.size() == dof() && qd.size() == dof());
+  for (int i = 0; i < dof(); ++i) {
+    q[i] = multibody().getJointPos(i);
+    qd[i] = multibody().getJointVel(i);
+  }
+}
+
+void Robot::reset(const Eigen::Ref<const Eigen::VectorXd>& q,
+                  const Eigen::Ref<const Eigen::VectorXd>& qd) {
+  assert(q.size() == dof() && qd.size() == dof());
+  for (int i = 0; i < dof(); ++i) {
+    multibody().setJointPos(i, static_cast<btScalar>(q[i]));
+    multibody().setJointVel(i, static_cast<btScalar>(qd[i]));
+  }
+  parts_->place_colliders();
+}
+
+Eigen::Isometry3d Robot::X_world_base() const noexcept {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = eigen_rotation(multibody().getWorldToBaseRot()).transpose();
+  X.translation() = eigen_vector(multibody().getBasePos());
+  return X;
+}
+
+Eigen::Isometry3d Robot::X_world_frame(const Frame& frame) const noexcept {
+  Eigen::Isometry3d X = frame.X_body_frame;
+  for (int i = frame.body; i >= 0;) {
+    const Joint& joint = model().joints[static_cast<std::size_t>(i)];
+    X = joint.X_parent_body_at(multibody().getJointPos(i)) * X;
+    i = joint.parent;
+  }
+  return X_world_base() * X;
+}
+
+Eigen::Vector3d Robot::gravity_in_base() const noexcept {
+  return X_world_base().linear().transpose() * eigen_vector(world().getGravity());
+}
+
+}  // namespace seam

@@ -1,0 +1,170 @@
+#include <algorithm>
+
+#include "urdf_document.hpp"
+#include "urdf_elements.hpp"
+#include <seam/error.hpp>
+#include <seam/robot_model.hpp>
+
+namespace seam {
+namespace {
+
+/// Steiner's term of a mass at r.
+Eigen::Matrix3d point_inertia(double mass, const Eigen::Vector3d& r) {
+  return mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+}
+
+template <typename Items>
+std::string names(const Items& items) {
+  std::string line;
+  for (const auto& item : items) line += " " + item.name;
+  return line.empty() ? " none" : line;
+}
+
+/// Walks the tree from its root and merges what is fixed.
+class ModelBuilder {
+ public:
+  ModelBuilder(const UrdfDocument& document, MeshPlaces places)
+      : document_(document), places_(std::move(places)) {}
+
+  RobotModel build() {
+    const urdf::Link& root = *document_.model->getRoot();
+    model_.name = document_.model->getName();
+    model_.base.link = root.name;
+    add_link(root, -1, Eigen::Isometry3d::Identity());
+    check_that_what_moves_has_mass();
+    return std::move(model_);
+  }
+
+ private:
+  std::string where(const char* kind, const std::string& name) const {
+    return places_.urdf + ": " + kind + " \"" + name + "\"";
+  }
+
+  Body& body(int index) {
+    return index < 0 ? model_.base : model_.bodies[static_cast<std::size_t>(index)];
+  }
+
+  void add_link(const urdf::Link& link, int index, const Eigen::Isometry3d& X_body_link) {
+    model_.frames.push_back({link.name, index, X_body_link});
+    add_parts(link, body(index), X_body_link);
+    for (const auto& joint : children(link)) {
+      const urdf::Link& child = *document_.model->getLink(joint->child_link_name);
+      const Eigen::Isometry3d X =
+          X_body_link * pose_from_urdf(joint->parent_to_joint_origin_transform);
+      if (joint->type == urdf::Joint::FIXED && !joint->mimic) {
+        add_link(child, index, X);
+      } else {
+        add_joint(*joint, child, index, X);
+      }
+    }
+  }
+
+  void add_joint(const urdf::Joint& urdf_joint, const urdf::Link& child, int parent,
+                 const Eigen::Isometry3d& X_parent_body) {
+    Joint joint = joint_from_urdf(urdf_joint, where("joint", urdf_joint.name));
+    joint.parent = parent;
+    joint.X_parent_body = X_parent_body;
+    model_.joints.push_back(std::move(joint));
+    model_.bodies.emplace_back();
+    model_.bodies.back().link = child.name;
+    add_link(child, model_.dof() - 1, Eigen::Isometry3d::Identity());
+  }
+
+  void add_parts(const urdf::Link& link, Body& body, const Eigen::Isometry3d& X_body_link) {
+    const std::string here = where("link", link.name);
+    if (link.inertial) {
+      body.inertial = body.inertial + X_body_link * inertial_from_urdf(*link.inertial, here);
+    }
+    const auto add = [&](std::vector<Geometry>& shapes, Geometry shape) {
+      shape.link = link.name;
+      shape.X_body_shape = X_body_link * shape.X_body_shape;
+      shapes.push_back(std::move(shape));
+    };
+    for (const auto& visual : link.visual_array) {
+      add(body.visuals, visual_from_urdf(*visual, places_, here));
+    }
+    for (const auto& collision : link.collision_array) {
+      add(body.collisions, collision_from_urdf(*collision, places_, here));
+    }
+  }
+
+  std::vector<urdf::JointSharedPtr> children(const urdf::Link& link) const {
+    std::vector<urdf::JointSharedPtr> joints = link.child_joints;
+    const auto place = [this](const urdf::JointSharedPtr& joint) {
+      const auto found = document_.joint_order.find(joint->name);
+      return found == document_.joint_order.end() ? document_.joint_order.size() : found->second;
+    };
+    std::sort(joints.begin(), joints.end(),
+              [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    return joints;
+  }
+
+  void check_that_what_moves_has_mass() const {
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      if (model_.bodies[i].inertial.mass > 0.0) continue;
+      throw Error(where("link", model_.bodies[i].link),
+                  "has no mass, nor has any link fixed to it, but joint \"" +
+                      model_.joints[i].name + "\" moves it: must be > 0");
+    }
+  }
+
+  const UrdfDocument& document_;
+  MeshPlaces places_;
+  RobotModel model_;
+};
+
+}  // namespace
+
+Eigen::Matrix3d Inertial::about_origin() const {
+  return inertia + point_inertia(mass, com);
+}
+
+Inertial operator*(const Eigen::Isometry3d& X_a_b, const Inertial& b) {
+  const Eigen::Matrix3d turned = X_a_b.linear() * b.inertia * X_a_b.linear().transpose();
+  return {b.mass, X_a_b * b.com, 0.5 * (turned + turned.transpose())};
+}
+
+Inertial operator+(const Inertial& a, const Inertial& b) {
+  if (a.mass == 0.0) return b;
+  if (b.mass == 0.0) return a;
+  Inertial sum;
+  sum.mass = a.mass + b.mass;
+  sum.com = (a.mass * a.com + b.mass * b.com) / sum.mass;
+  sum.inertia = a.inertia + point_inertia(a.mass, a.com - sum.com)  //
+                + b.inertia + point_inertia(b.mass, b.com - sum.com);
+  return sum;
+}
+
+Eigen::Isometry3d Joint::X_parent_body_at(double q) const {
+  Eigen::Isometry3d X = X_parent_body;
+  if (type == Type::prismatic) {
+    X.translate(q * axis);
+  } else {
+    X.rotate(Eigen::AngleAxisd(q, axis));
+  }
+  return X;
+}
+
+int RobotModel::joint(const std::string& joint_name) const {
+  const auto found = std::find_if(joints.begin(), joints.end(), [&](const Joint& candidate) {
+    return candidate.name == joint_name;
+  });
+  if (found != joints.end()) return static_cast<int>(found - joints.begin());
+  throw Error("robot \"" + name + "\"", "no joint \"" + joint_name + "\", it has" + names(joints));
+}
+
+const Frame& RobotModel::frame(const std::string& link_name) const {
+  const auto found = std::find_if(frames.begin(), frames.end(), [&](const Frame& candidate) {
+    return candidate.name == link_name;
+  });
+  if (found != frames.end()) return *found;
+  throw Error("robot \"" + name + "\"", "no link \"" + link_name + "\", it has" + names(frames));
+}
+
+RobotModel RobotModel::read(const std::string& urdf_path,
+                            const std::vector<std::string>& package_path) {
+  const UrdfDocument document = read_urdf(urdf_path);
+  return ModelBuilder(document, {urdf_path, package_path}).build();
+}
+
+}  // namespace seam

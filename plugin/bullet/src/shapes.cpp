@@ -1,0 +1,62 @@
+#include "shapes.hpp"
+
+#include <algorithm>
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include "bullet_types.hpp"
+#include <seam/mesh.hpp>
+
+namespace seam {
+namespace {
+
+constexpr double margin = 1e-3;  // [m] Bullet's 40 mm would round off edges and blow up hulls
+
+std::unique_ptr<btCollisionShape> make_hull(const Geometry& geometry) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Mesh& mesh : load_mesh(geometry.mesh)) {
+    for (const auto& position : mesh.positions.colwise()) {
+      const Eigen::Vector3d point = position.cast<double>().cwiseProduct(geometry.scale);
+      hull->addPoint(bullet_vector(point), false);
+    }
+  }
+  hull->optimizeConvexHull();
+  hull->recalcLocalAabb();
+  return hull;
+}
+
+std::unique_ptr<btCollisionShape> make_part(const Geometry& geometry) {
+  const btVector3 size = bullet_vector(geometry.size);
+  switch (geometry.type) {
+    case Geometry::Type::box:
+      return std::make_unique<btBoxShape>(size / 2);
+    case Geometry::Type::cylinder:
+      return std::make_unique<btCylinderShapeZ>(btVector3(size.x(), size.x(), size.z() / 2));
+    case Geometry::Type::sphere:
+      return std::make_unique<btSphereShape>(size.x());
+    default:
+      return make_hull(geometry);
+  }
+}
+
+}  // namespace
+
+BodyShape make_shape(const std::vector<Geometry>& geometries,
+                     const Eigen::Isometry3d& X_body_link) {
+  BodyShape shape;
+  shape.compound = std::make_unique<btCompoundShape>(true, static_cast<int>(geometries.size()));
+  for (const Geometry& geometry : geometries) {
+    shape.parts.push_back(make_part(geometry));
+    btCollisionShape& part = *shape.parts.back();
+    if (geometry.type != Geometry::Type::sphere)
+      part.setMargin(std::min(part.getMargin(), btScalar(margin)));
+    shape.compound->addChildShape(bullet_pose(X_body_link.inverse() * geometry.X_body_shape),
+                                  &part);
+  }
+  return shape;
+}
+
+}  // namespace seam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+
+#include <seam/robot_model.hpp>
+
+namespace seam {
+
+/// The collision shapes of one body as one compound, with all that it is made of.
+struct BodyShape {
+  std::unique_ptr<btCompoundShape> compound;
+  std::vector<std::unique_ptr<btCollisionShape>> parts;
+};
+
+/// @param X_body_link  the frame that the compound will be placed by, in the body frame
+/// @throws Error       see load_mesh
+BodyShape make_shape(const std::vector<Geometry>& geometries, const Eigen::Isometry3d& X_body_link);
+
+}  // namespace seam

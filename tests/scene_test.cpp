@@ -1,0 +1,153 @@
+#include "scenes/scene.hpp"
+
+#include <cstring>
+
+#include <gmock/gmock.h>
+
+#include "bench/compare.hpp"
+#include "scenes/play.hpp"
+#include "tests/support.hpp"
+#include <seam/metrics.hpp>
+
+namespace seam {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string line = std::string(SEAM_SCENES) + "/line.yaml";
+
+std::vector<seam::Run> compared(const std::string& path, int jobs) {
+  const std::vector<Join> methods(all_joins.begin(), all_joins.end());
+  const auto quiet = [](int, int, const std::string&) {};
+  return compare({Scene::read(path)}, methods, 0.0, jobs, quiet).front().runs;
+}
+
+bool same_bits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+bool same_bits(const Recording& a, const Recording& b) {
+  return same_bits(a.ref, b.ref) && same_bits(a.ref_vel, b.ref_vel) &&
+         same_bits(a.ref_acc, b.ref_acc) && same_bits(a.q, b.q) && same_bits(a.qd, b.qd) &&
+         same_bits(a.torque, b.torque);
+}
+
+// The bars of the comparison, at every join, the start included.
+TEST(LineScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
+  const std::vector<seam::Run> runs = compared(line, 2);
+  const seam::Run& dmp2 = runs[0];
+  ASSERT_EQ(dmp2.joins.size(), 2U);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_GT(dmp2.joins[j].torque_jump_nm, 10.0);
+    EXPECT_NEAR(dmp2.join_orders[j], 0.0, 0.1);
+    for (const seam::Run* run : {&runs[1], &runs[2]}) {
+      EXPECT_LE(run->joins[j].torque_jump_nm, 0.02 * dmp2.joins[j].torque_jump_nm)
+          << to_string(run->method);
+      EXPECT_GE(run->join_orders[j], 0.9) << to_string(run->method);
+      EXPECT_LE(run->joins[j].acceleration_jump_rad_s2,
+                1e-9 * run->recording.ref_acc.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST(LineScene, IsTrackedExactly) {
+  for (const seam::Run& run : compared(line, 2))
+    EXPECT_LE(run.metrics.tracking_max_rad, 1e-9) << to_string(run.method);
+}
+
+TEST(LineScene, StaysWithinTheLimitsOfTheArm) {
+  const Scene scene = Scene::read(line);
+  for (const Join method : all_joins) {
+    const Recording recording = play(scene, method, scene.dt);
+    for (int j = 0; j < scene.robot.dof(); ++j) {
+      const Joint& joint = scene.robot.joints[static_cast<std::size_t>(j)];
+      EXPECT_LT(recording.torque.col(j).cwiseAbs().maxCoeff(), joint.effort) << joint.name;
+      EXPECT_LT(recording.qd.col(j).cwiseAbs().maxCoeff(), joint.speed) << joint.name;
+    }
+  }
+}
+
+TEST(LineScene, GivesTheSameBitsTwiceAndWithAnyNumberOfJobs) {
+  const std::vector<seam::Run> alone = compared(line, 1);
+  for (const int jobs : {1, 2, 5}) {
+    const std::vector<seam::Run> again = compared(line, jobs);
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      EXPECT_TRUE(same_bits(alone[i].recording, again[i].recording)) << jobs << " jobs, run " << i;
+  }
+}
+
+// A scene that works, in which one text is replaced by another.
+std::string spoiled(const std::string& from, const std::string& to) {
+  std::string text = test::read_file(line);
+  const auto asset = [&](const std::string& name) {
+    const auto at = text.find("../assets");
+    text.replace(at, std::strlen("../assets"), name);
+  };
+  for (int i = 0; i < 3; ++i) asset(SEAM_ASSETS);
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+struct BadScene {
+  const char* name;
+  const char* from;
+  const char* to;
+  const char* message;  // a part that it must have, from the file's name on
+};
+
+class SceneRefuses : public testing::TestWithParam<BadScene> {};
+
+TEST_P(SceneRefuses, WithFileLineAndKey) {
+  const TempFolder folder;
+  const std::string path = folder.write("bad.yaml", spoiled(GetParam().from, GetParam().to));
+  EXPECT_THAT(test::refusal([&] { Scene::read(path); }),
+              HasSubstr("bad.yaml" + std::string(GetParam().message)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , SceneRefuses,
+    testing::Values(
+        BadScene{"Format", "seam-scene 1", "seam-scene 7",
+                 ":2: key \"format\": \"seam-scene 7\", must be seam-scene 1"},
+        BadScene{"NoTitle", "title:", "#", ":2: needs the key \"title\""},
+        BadScene{"UnknownKey", "settle:", "settel:",
+                 ":20: key \"settel\": not known here, must be one of format, title"},
+        BadScene{"NoUrdf", "pa10.urdf", "pa11.urdf", ":6: key \"urdf\": "},
+        BadScene{"UnknownJoint", "S2: 0.5", "S9: 0.5", ":7: key \"S9\": "},
+        BadScene{"StartOutOfReach", "S2: 0.5", "S2: 2.5", ":7: key \"S2\": 2.5, must be in -1.64"},
+        BadScene{"StartNotANumber", "S2: 0.5", "S2: half",
+                 ":7: key \"S2\": \"half\", must be a finite number"},
+        BadScene{"StartTwice", "S2: 0.5", "E1: 0.5", ":7: key \"E1\": appears twice"},
+        BadScene{"NoDemonstration", "ramp_up.csv", "ramp_op.csv", ":10: key \"demonstration\": "},
+        BadScene{"TooManyKernels", "kernels: 10}", "kernels: 60}",
+                 ":10: key \"demonstration\": demonstration: 101 samples, must be >= 120"},
+        BadScene{"FewKernels", "kernels: 10}", "kernels: 1}",
+                 ":10: key \"kernels\": \"1\", must be a whole number >= 2"},
+        BadScene{"UnknownPrimitive", "play: down", "play: dwon",
+                 ":17: key \"play\": \"dwon\", is not among the primitives"},
+        BadScene{"SwitchTooEarly", "before_end: 0.0", "before_end: 1.5",
+                 ":16: key \"until\": sequence: primitive 1: its"},
+        BadScene{"TwoSwitches", "before_end: 0.0", "before_end: 0.0, after: 1.0",
+                 ":16: key \"until\": must have one of after, before_end"},
+        BadScene{"ZeroTick", "dt: 0.001", "dt: 0", ":19: key \"dt\": 0, must be > 0"},
+        BadScene{"NotFinite", "settle: 1.0", "settle: .inf",
+                 ":20: key \"settle\": \".inf\", must be a finite number"},
+        BadScene{"FigureOfNoJoint", "figure: E1", "figure: E7", ":21: key \"figure\": "},
+        BadScene{"NotYaml", "primitives:", "primitives: {", ":11: not YAML: "},
+        BadScene{"AList", "sequence:\n", "sequence: [1]\nsettings:\n",
+                 ":15: key \"settings\": not known here"}),
+    [](const auto& bad) { return bad.param.name; });
+
+TEST(Scene, RefusesWhatIsNotAFile) {
+  const TempFolder folder;
+  EXPECT_THAT(test::refusal([&] { Scene::read(folder.path("none.yaml")); }),
+              HasSubstr("cannot be read"));
+  EXPECT_THAT(test::refusal([&] { Scene::read(folder.path("")); }), HasSubstr("is a folder"));
+  EXPECT_THAT(test::refusal([&] { Scene::read(folder.write("empty.yaml", "")); }),
+              HasSubstr("must be a map"));
+}
+
+}  // namespace
+}  // namespace seam
