@@ -10,7 +10,7 @@ sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
 help:                                  ## this list
 	@sed -nE 's/^([a-z]+( [a-z]+)*): .*## /\1:\t/p' Makefile | expand -t 20
 bench: build/release/build.ninja       ## build, run every scene with every method, print the comparison, fill results/
-	cmake --build --preset release
+	cmake --build --preset release --target seam
 	build/release/bench/seam bench --out results
 test: build/release/build.ninja        ## build and run every test
 	cmake --build --preset release
