@@ -4,8 +4,7 @@ packages := g++ cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-de
   libgmock-dev libbenchmark-dev liborocos-kdl-dev $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
 tools := clang-format clang-tidy
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
-
-.PHONY: help bench test debug asan tsan format tidy meshes readme clean
+.PHONY: help bench test debug asan tsan format tidy micro meshes readme clean
 .PRECIOUS: build/%/build.ninja
 help:                                  ## this list
 	@sed -nE 's/^([a-z]+( [a-z]+)*): .*## /\1:\t/p' Makefile | expand -t 20
@@ -22,6 +21,9 @@ format: build/tools                    ## check the layout of the C++ sources (F
 	@clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources)
 tidy: build/tools build/release/build.ninja ## check the C++ sources with clang-tidy
 	run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$'
+micro: build/release/build.ninja       ## measure what a step costs, beside a bare loop of the same arithmetic
+	cmake --build --preset release --target seam_micro
+	build/release/bench/seam_micro --benchmark_report_aggregates_only
 meshes:                                ## make the arm's meshes anew (needs Node.js)
 	cd assets/pa10/source && npm ci && npm run meshes
 readme: bench                          ## put the bench's figures into README.md

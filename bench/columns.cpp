@@ -1,6 +1,7 @@
 #include "bench/columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -43,6 +44,7 @@ std::size_t width(const std::string& text) {
 }
 
 std::string cell(const Column& column, const Run& run) {
+  if (!std::isfinite(column.of(run))) return "n/a";
   const std::string text = fmt::format(fmt::runtime(column.format), column.of(run));
   const bool minus_zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
   return minus_zero ? text.substr(1) : text;

@@ -1,10 +1,13 @@
 #include "bench/figure.hpp"
 
-#include <cstdio>
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
@@ -31,23 +34,21 @@ Table alone(const Primitive& primitive, double begin, double dt) {
   return table;
 }
 
-std::string file_of(const Scene& scene, std::size_t step) {
-  return fmt::format("primitive-{}-{}.csv", step + 1, scene.primitive_names[step]);
+std::string quoted(const std::string& text) {
+  std::string doubled;
+  for (const char c : text) doubled += c == '\'' ? "''" : std::string(1, c);
+  return "'" + doubled + "'";
 }
 
-bool moves(const Primitive& primitive, const std::string& joint) {
-  for (const std::string& coordinate : primitive.coordinates)
-    if (coordinate == joint) return true;
-  return false;
+std::string file_of(std::size_t step) {
+  return fmt::format("primitive-{}.csv", step + 1);
 }
 
 void write_primitives(const Comparison& comparison, const std::string& folder) {
-  double begin = comparison.scene.sequence.start_delay();
+  const auto& joins = comparison.runs.front().recording.joins;
   const auto& steps = comparison.scene.sequence.steps();
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    alone(steps[i].primitive, begin, comparison.dt)
-        .write(folder + "/" + file_of(comparison.scene, i));
-    begin += steps[i].until.due(steps[i].primitive.tau);
+  for (std::size_t i = 0; i < std::min(steps.size(), joins.size()); ++i) {
+    alone(steps[i].primitive, joins[i].time, comparison.dt).write(folder + "/" + file_of(i));
   }
 }
 
@@ -59,6 +60,8 @@ std::string style(Join method) {
       return "lc rgb '#0072b2' lw 2.5 dt 1";
     case Join::dmp3:
       return "lc rgb '#009e73' lw 2.5 dt (8,5)";
+    case Join::dmp2j:
+      return "lc rgb '#cc79a7' lw 2.5 dt (3,3)";
   }
   return "";
 }
@@ -68,23 +71,23 @@ std::string curves(const Comparison& comparison, const std::string& x, const std
                    int every, const char* with) {
   std::string text;
   for (const Run& run : comparison.runs)
-    text += fmt::format("{}'{}.csv' every {} using {}:'{}' with {} {} title '{}'",
-                        text.empty() ? "" : ", \\\n  ", to_string(run.method), every, x, column,
-                        with, style(run.method), to_string(run.method));
+    text += fmt::format("{}'{}.csv' every {} using {}:{} with {} {} title '{}'",
+                        text.empty() ? "" : ", \\\n  ", to_string(run.method), every, x,
+                        quoted(column), with, style(run.method), to_string(run.method));
   return text;
 }
 
-std::string preamble(const Comparison& comparison, const std::string& picture, int width,
-                     int height) {
+std::string preamble(const Comparison& comparison, int width, int height) {
   std::string text = fmt::format(
-      "set terminal pngcairo size {},{} font 'DejaVu Sans,18' background rgb 'white'\n"
-      "set output '{}'\n"
+      "# gnuplot -c THIS PICTURE.png\n"
+      "set terminal pngcairo size {},{} noenhanced font 'DejaVu Sans,17' background rgb 'white'\n"
+      "set output ARG1\n"
       "set datafile separator ','\n"
       "set datafile columnheaders\n"
-      "set grid lc rgb '#dddddd'\n"
+      "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\n"
       "set border 3\nset tics nomirror\n"
-      "set lmargin 11\nset rmargin 3\nset key tmargin right horizontal samplen 2 width -3\n",
-      width, height, picture);
+      "set lmargin 11\nset rmargin 3\nset key tmargin right horizontal maxrows 1 samplen 2\n",
+      width, height);
   for (const RecordedJoin& join : comparison.runs.front().recording.joins)
     text += fmt::format(
         "set arrow from {0}, graph 0 to {0}, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n",
@@ -96,15 +99,15 @@ std::string sequencing_script(const Comparison& comparison) {
   const Scene& scene = comparison.scene;
   const Recording& recording = comparison.runs.front().recording;
   const int every = std::max(1, recording.ticks() / curve_points);
-  std::string text = preamble(comparison, scene.name + ".png", 1200, 1440);
+  std::string text = preamble(comparison, 1200, 1440);
   text += fmt::format("set xrange [0:{}]\n", recording.time(recording.ticks() - 1));
-  text += fmt::format("set multiplot layout 4,1 title '{}, joint {}'\n", scene.title, scene.figure);
+  text +=
+      "set multiplot layout 4,1 title " + quoted(scene.title + ", joint " + scene.figure) + "\n";
   text += "set ylabel 'each alone [rad]'\nplot ";
   for (std::size_t i = 0; i < scene.primitive_names.size(); ++i)
-    if (moves(scene.sequence.steps()[i].primitive, scene.figure))
-      text += fmt::format("{}'{}' using 'time':'{}' with lines lw 2.5 lc rgb '{}' title '{}'",
-                          i ? ", \\\n  " : "", file_of(scene, i), scene.figure,
-                          i % 2 ? "#999999" : "#333333", scene.primitive_names[i]);
+    text += fmt::format("{}'{}' using 'time':{} with lines lw 2.5 lc rgb '{}' title {}",
+                        i ? ", \\\n  " : "", file_of(i), quoted(scene.figure),
+                        i % 2 ? "#999999" : "#333333", quoted(scene.primitive_names[i]));
   const std::pair<const char*, const char*> panels[] = {{"joined position [rad]", "ref."},
                                                         {"velocity [rad/s]", "ref_vel."},
                                                         {"acceleration [rad/s²]", "ref_acc."}};
@@ -124,13 +127,13 @@ std::string torque_script(const Comparison& comparison) {
   const double join = recording.joins.back().time;
   const double reach = 20e3 * comparison.dt;  // [ms]
   const std::string column = "torque." + scene.figure;
-  std::string text = preamble(comparison, "torque.png", 1200, 520);
-  text += "set multiplot layout 1,2\nset xlabel 'time [s]'\n";
-  text += fmt::format("set ylabel 'torque of {} [N·m]'\nset xrange [0:{}]\nplot {}\n", scene.figure,
-                      recording.time(recording.ticks() - 1),
+  std::string text = preamble(comparison, 1200, 520);
+  text += "set multiplot layout 1,2\nset xlabel 'time [s]'\nunset key\nset tmargin 3\n";
+  text += "set ylabel " + quoted("torque of " + scene.figure + " [N·m]") + "\n";
+  text += fmt::format("set xrange [0:{}]\nplot {}\n", recording.time(recording.ticks() - 1),
                       curves(comparison, "'time'", column, every, "lines"));
-  text +=
-      "unset key\nset xlabel 'from the last join [ms], every tick'\nset ylabel ''\nunset arrow\n";
+  text += "set key at screen 0.98, screen 0.97 right horizontal maxrows 1 samplen 2\n";
+  text += "set xlabel 'from the last join [ms], every tick'\nset ylabel ''\nunset arrow\n";
   text += "set arrow from 0, graph 0 to 0, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n";
   text += fmt::format("set xtics {}\nset xrange [{}:{}]\n", reach / 2.0, -reach, reach);
   const std::string from_join = fmt::format("(1e3*(column('time')-{}))", join);
@@ -138,24 +141,73 @@ std::string torque_script(const Comparison& comparison) {
                             curves(comparison, from_join, column, 1, "linespoints pt 7 ps 0.8"));
 }
 
-void draw(const std::string& folder, const std::string& script_name, const std::string& script) {
-  write_whole(folder + "/" + script_name, script);
-  const std::string command =
-      fmt::format("cd '{}' && gnuplot '{}' >gnuplot.log 2>&1 </dev/null", folder, script_name);
-  if (std::system(command.c_str()) != 0)
-    throw Error(
-        folder + "/" + script_name,
-        "gnuplot is not installed (Debian: gnuplot-nox) or fails, see gnuplot.log beside it");
+// Runs a program in a folder, its output in a log there; its exit status, 127 where it is not there.
+int run_in(const std::string& folder, std::vector<std::string> arguments, const std::string& log) {
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw Error(folder, "no process for " + arguments[0]);
+  if (child == 0) {
+    const int output =
+        chdir(folder.c_str()) == 0 ? open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644) : -1;
+    if (output < 0) _exit(126);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    close(STDIN_FILENO);
+    execvp(argv[0], argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+std::string first_line_with_text(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line))
+    if (line.find_first_not_of(" \t^") != std::string::npos) return line;
+  return "it left no picture";
+}
+
+bool is_whole_png(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) return false;
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  return bytes.size() > 100 && bytes.substr(bytes.size() - 8, 4) == "IEND";
+}
+
+// The picture appears whole or not at all.
+void draw(const std::string& folder, const std::string& name, const std::string& script) {
+  write_whole(folder + "/" + name + ".gnuplot", script);
+  const std::string part = name + ".png.part";
+  const int status = run_in(folder, {"gnuplot", "-c", name + ".gnuplot", part}, "gnuplot.log");
+  const std::string picture = folder + "/" + name + ".png";
+  if (status == 0 && is_whole_png(folder + "/" + part)) {
+    std::filesystem::rename(folder + "/" + part, picture);
+    std::filesystem::remove(folder + "/gnuplot.log");
+    return;
+  }
+  const std::string reason = first_line_with_text(folder + "/gnuplot.log");
+  std::filesystem::remove(folder + "/" + part);
   std::filesystem::remove(folder + "/gnuplot.log");
+  throw Error(picture, "gnuplot cannot draw it: " + reason);
 }
 
 }  // namespace
 
+void require_gnuplot() {
+  const std::string log = "/dev/null";
+  if (run_in(".", {"gnuplot", "--version"}, log) != 0)
+    throw Error("gnuplot", "cannot be run, it is needed for the pictures (Debian: gnuplot-nox)");
+}
+
 void draw_figures(const Comparison& comparison, const std::string& dir) {
-  const std::string folder = dir + "/" + comparison.scene.name;
+  const std::string folder = (std::filesystem::path(dir) / comparison.scene.name).string();
   write_primitives(comparison, folder);
-  draw(folder, comparison.scene.name + ".gnuplot", sequencing_script(comparison));
-  draw(folder, "torque.gnuplot", torque_script(comparison));
+  draw(folder, comparison.scene.name, sequencing_script(comparison));
+  draw(folder, "torque", torque_script(comparison));
 }
 
 }  // namespace seam

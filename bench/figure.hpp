@@ -6,6 +6,9 @@
 
 namespace seam {
 
+/// @throws Error  there is no gnuplot
+void require_gnuplot();
+
 /// Draws a comparison with gnuplot into DIR/SCENE/: `SCENE.png`, laid out as the paper's Fig. 1
 /// (each primitive alone; joined position, velocity, acceleration of all methods), and `torque.png`
 /// (the joint's torque, whole and around the last join). The scripts and data that they are drawn

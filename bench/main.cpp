@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +11,9 @@
 #include "bench/columns.hpp"
 #include "bench/compare.hpp"
 #include "bench/figure.hpp"
+#include "bench/learn_command.hpp"
 #include "bench/report.hpp"
+#include "bench/rollout_command.hpp"
 #include <seam/error.hpp>
 
 namespace {
@@ -24,7 +28,7 @@ struct Options {
 
 // A scene is a file, or the name of one of the project's own.
 std::string scene_file(const std::string& scene) {
-  if (std::filesystem::exists(scene) || scene.find_first_of("./") != std::string::npos)
+  if (std::filesystem::is_regular_file(scene) || scene.find_first_of("./") != std::string::npos)
     return scene;
   return std::string(SEAM_SCENES) + "/" + scene + ".yaml";
 }
@@ -39,8 +43,12 @@ std::vector<std::string> own_scenes() {
 
 std::vector<seam::Scene> read_scenes(const std::vector<std::string>& names) {
   std::vector<seam::Scene> scenes;
-  for (const std::string& name : names.empty() ? own_scenes() : names)
+  std::set<std::string> seen;
+  for (const std::string& name : names.empty() ? own_scenes() : names) {
     scenes.push_back(seam::Scene::read(scene_file(name)));
+    if (!seen.insert(scenes.back().name).second)
+      throw seam::Error("scene \"" + scenes.back().name + "\"", "given twice");
+  }
   return scenes;
 }
 
@@ -67,6 +75,9 @@ void print(const seam::Comparison& comparison) {
 }
 
 void bench(const Options& options) {
+  if (options.out.empty()) throw seam::Error("--out", "is empty, must be a folder");
+  if (std::isnan(options.dt)) throw seam::Error("--dt", "nan, must be a time [s]");
+  seam::require_gnuplot();
   const auto comparisons = seam::compare(read_scenes(options.scenes), read_methods(options.methods),
                                          options.dt, options.jobs, show_progress);
   seam::write_results(comparisons, SEAM_VERSION, options.out);
@@ -80,7 +91,7 @@ void bench(const Options& options) {
 
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--dt", options.dt, "Bullet's tick [s] (default: the scene's)")
-      ->check(CLI::Range(1e-6, 0.1));
+      ->check(CLI::Number & CLI::Range(seam::least_tick, seam::largest_tick));
   command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -96,22 +107,29 @@ int run(int argc, char** argv) {
   CLI::App& compare = *app.add_subcommand("bench", "play scenes with every method and compare");
   compare.add_option("scenes", options.scenes,
                      "scene files, or names of seam's own (default: all of those)");
-  compare.add_option("--method", options.methods,
-                     "joining method: dmp2, dmp2a, dmp3 (default: all)");
+  compare
+      .add_option("--method", options.methods,
+                  "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
+      ->allow_extra_args(false)
+      ->delimiter(',');
   add_common(compare, options);
 
   CLI::App& single = *app.add_subcommand("run", "play one scene with one method");
   single.add_option("scene", options.scenes, "scene file, or name of one of seam's own")
       ->required()
       ->expected(1);
-  single.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3")
+  single.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3, dmp2j")
       ->required()
       ->expected(1);
   add_common(single, options);
 
+  seam::add_learn_command(app);
+  seam::add_rollout_command(app);
+
   try {
     app.parse(argc, argv);
-    bench(options);
+    if (compare.parsed() || single.parsed()) bench(options);
+    if (std::fflush(stdout) != 0) throw seam::Error("standard output", "cannot be written");
     return 0;
   } catch (const CLI::Success& shown) {
     return app.exit(shown);

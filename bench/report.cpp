@@ -47,28 +47,28 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
           {"runs", runs}};
 }
 
-void make_folder(const std::string& dir) {
+void make_folder(const std::filesystem::path& dir) {
   std::error_code status;
   std::filesystem::create_directories(dir, status);
-  if (status) throw Error(dir, "cannot be made: " + status.message());
+  if (status) throw Error(dir.string(), "cannot be made: " + status.message());
 }
 
 }  // namespace
 
 void write_results(const std::vector<Comparison>& comparisons, const std::string& seam_version,
                    const std::string& dir) {
+  const std::filesystem::path results = dir;
+  std::string tables;
   for (const Comparison& comparison : comparisons) {
-    const std::string folder = dir + "/" + comparison.scene.name;
+    const std::filesystem::path folder = results / comparison.scene.name;
     make_folder(folder);
     for (const Run& run : comparison.runs)
-      run.recording.write(folder + "/" + std::string(to_string(run.method)) + ".csv");
-  }
-  make_folder(dir);
-  std::string tables;
-  for (const Comparison& comparison : comparisons)
+      run.recording.write((folder / (std::string(to_string(run.method)) + ".csv")).string());
     tables += (tables.empty() ? "" : "\n") + table(comparison);
-  write_whole(dir + "/table.md", tables);
-  write_whole(dir + "/summary.json", summary(comparisons, seam_version).dump(2) + "\n");
+  }
+  write_whole((results / "table.md").string(), tables);
+  write_whole((results / "summary.json").string(),
+              summary(comparisons, seam_version).dump(2) + "\n");
 }
 
 }  // namespace seam

@@ -4,6 +4,7 @@
 
 #include "scenes/world.hpp"
 #include <seam/bullet.hpp>
+#include <seam/error.hpp>
 
 namespace seam {
 
@@ -43,6 +44,10 @@ std::vector<RecordedJoin> joins_of(const Sequencer& sequencer) {
 }  // namespace
 
 Recording play(const Scene& scene, Join method, double dt) {
+  if (!(dt >= 0.5 * least_tick && dt <= largest_tick && scene.control.stable_at(dt)))
+    throw Error(scene.name,
+                "a tick of " + std::to_string(dt) +
+                    " s, must be in 1e-6 to 0.1 s and short enough for the control gains");
   World world;
   Robot robot(scene.robot, *world);
   robot.reset(scene.start, Eigen::VectorXd::Zero(robot.dof()));

@@ -1,76 +1,26 @@
 #include "scenes/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
-#include "scenes/yaml_reader.hpp"
-#include <seam/demonstration.hpp>
+#include "plugin/files/src/sequence_entry.hpp"
+#include <seam/controller.hpp>
 #include <seam/error.hpp>
-#include <seam/learn.hpp>
 
 namespace seam {
 
 namespace {
 
-// What a reader of the library refuses is refused at the key that named it.
-template <typename Action>
-auto at_key(const YamlEntry& entry, Action action) {
-  try {
-    return action();
-  } catch (const Error& error) {
-    entry.fail(error.what());
-  }
-}
+constexpr double most_seconds = 3600.0;
 
-Gains read_gains(const YamlEntry& entry) {
-  entry.only({"K", "D", "H"});
-  Gains gains = Gains::critical(entry.at("K").positive());
-  if (const auto D = entry.find("D")) gains.D = D->positive();
-  if (const auto H = entry.find("H")) gains.H = H->positive();
-  return gains;
-}
-
-Primitive read_primitive(const YamlEntry& entry) {
-  entry.only({"demonstration", "kernels", "width", "alpha", "gains", "window"});
-  LearnSettings settings;
-  DerivativeSettings derivatives;
-  if (const auto kernels = entry.find("kernels")) settings.kernels = kernels->count(2);
-  if (const auto width = entry.find("width")) settings.width = width->positive();
-  if (const auto alpha = entry.find("alpha")) settings.alpha = alpha->positive();
-  if (const auto gains = entry.find("gains")) settings.gains = read_gains(*gains);
-  if (const auto window = entry.find("window")) derivatives.window = window->not_negative();
-  const YamlEntry file = entry.at("demonstration");
-  return at_key(file,
-                [&] { return learn(Demonstration::read(file.path(), derivatives), settings); });
-}
-
-Switch read_switch(const YamlEntry& entry) {
-  entry.only({"after", "before_end"});
-  const auto time = entry.find("after");
-  const auto rest = entry.find("before_end");
-  if (time && rest) entry.fail("must have one of after, before_end, not both");
-  return time ? after(time->positive()) : before_end(entry.at("before_end").not_negative());
-}
-
-void read_sequence(const YamlEntry& entry, const std::map<std::string, Primitive>& primitives,
-                   Scene& scene) {
-  entry.only({"start_after", "steps"});
-  if (const auto delay = entry.find("start_after"))
-    scene.sequence.start_after(delay->not_negative());
-  for (const YamlEntry& step : entry.at("steps").items()) {
-    step.only({"play", "until"});
-    const YamlEntry play = step.at("play");
-    const auto primitive = primitives.find(play.text());
-    if (primitive == primitives.end())
-      play.fail("\"" + play.text() + "\", is not among the primitives");
-    at_key(play, [&] { scene.sequence.then(primitive->second); });
-    if (const auto until = step.find("until")) {
-      const Switch when = read_switch(*until);
-      at_key(*until, [&] { scene.sequence.until(when); });
-    }
-    scene.primitive_names.push_back(play.text());
-  }
+void read_steps(const YamlEntry& entry, Scene& scene) {
+  if (const auto start = entry.find("start"))
+    start->fail("not known in a scene, which begins at the robot's start");
+  SequenceFile file = read_sequence(
+      entry, [&](const Primitive& primitive) { require_reachable(primitive, scene.robot); });
+  scene.sequence = std::move(file.sequence);
+  scene.primitive_names = std::move(file.primitives);
 }
 
 void read_robot(const YamlEntry& entry, Scene& scene) {
@@ -88,6 +38,13 @@ void read_robot(const YamlEntry& entry, Scene& scene) {
       position.fail(position.text() + ", must be in " + std::to_string(joint.lower) + " to " +
                     std::to_string(joint.upper));
   }
+}
+
+double read_tick(const YamlEntry& entry, const ControlSettings& control) {
+  const double dt = entry.positive();
+  if (dt < least_tick || dt > largest_tick) entry.fail(entry.text() + ", must be in 1e-6 to 0.1 s");
+  if (!control.stable_at(dt)) entry.fail(entry.text() + ", is too long for the control gains");
+  return dt;
 }
 
 ControlSettings read_control(const YamlEntry& entry) {
@@ -112,25 +69,27 @@ int Scene::ticks(double step) const {
 
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
-  root.only(
-      {"format", "title", "robot", "primitives", "sequence", "control", "dt", "settle", "figure"});
-  const YamlEntry format = root.at("format");
-  if (format.text() != "seam-scene 1")
-    format.fail("\"" + format.text() + "\", must be seam-scene 1");
+  root.require_format("seam-scene", 1);
+  root.only({"format", "title", "robot", "sequence", "control", "dt", "settle", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
   read_robot(root.at("robot"), scene);
-  std::map<std::string, Primitive> primitives;
-  for (const auto& [name, entry] : root.at("primitives").entries())
-    primitives.emplace(name, read_primitive(entry));
-  read_sequence(root.at("sequence"), primitives, scene);
+  read_steps(root.at("sequence"), scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);
-  if (const auto dt = root.find("dt")) scene.dt = dt->positive();
-  if (const auto settle = root.find("settle")) scene.settle = settle->not_negative();
+  if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt, scene.control);
+  if (const auto settle = root.find("settle")) {
+    scene.settle = settle->not_negative();
+    if (scene.settle > most_seconds) settle->fail(settle->text() + ", must be <= 3600 s");
+  }
+  if (!(scene.sequence.duration() < most_seconds))
+    root.at("sequence").fail("has no end that is known beforehand, or one beyond 3600 s");
   const YamlEntry figure = root.at("figure");
   scene.figure = figure.text();
   at_key(figure, [&] { return scene.robot.joint(scene.figure); });
+  const auto& moved = scene.sequence.coordinates();
+  if (std::find(moved.begin(), moved.end(), scene.figure) == moved.end())
+    figure.fail("\"" + scene.figure + "\", is moved by no primitive");
   return scene;
 }
 

@@ -10,6 +10,10 @@
 
 namespace seam {
 
+/// Ticks that a scene can be played at [s].
+inline constexpr double least_tick = 1e-6;
+inline constexpr double largest_tick = 0.1;
+
 /// A scene file, read and learned: everything that a run needs but the joining method.
 struct Scene {
   std::string name;   // the file's name without its ending

@@ -110,6 +110,47 @@ TEST(Controller, JointsThatAreNotNamedHoldTheirPosition) {
   EXPECT_NEAR(controller.last_tick().q(3), 0.9, 0.05);
 }
 
+// Several joints, in another order than the robot's, from a state that moves.
+TEST(Controller, FindsItsJointsByNameAndStartsInMotion) {
+  World world;
+  Arm arm(world);
+  Demonstration demo = ramp("W1", 0.6, 0.2);
+  const Demonstration other = ramp("S2", 0.5, 0.8);
+  demo.coordinates = {"W1", "S2"};
+  for (auto [to, from] : {std::pair{&demo.position, &other.position},
+                          {&demo.velocity, &other.velocity},
+                          {&demo.acceleration, &other.acceleration}}) {
+    to->conservativeResize(Eigen::NoChange, 2);
+    to->col(1) = *from;
+  }
+  Eigen::VectorXd qd = Eigen::VectorXd::Zero(7);
+  qd(1) = 0.3;
+  qd(5) = -0.4;
+  arm.robot.reset(bent(), qd);
+  Controller controller(arm.robot, Sequence().then(learn(demo)), Join::dmp2a);
+  Plugin plugin(*world);
+  plugin.add(controller);
+  double worst = 0.0;
+  while (!controller.finished()) {
+    world->stepSimulation(1e-3, 0);
+    const Controller::Tick& tick = controller.last_tick();
+    worst = std::max(worst, (tick.reference.position - tick.q).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_NEAR(controller.last_tick().q(5), 0.2, 0.05);
+  EXPECT_NEAR(controller.last_tick().q(1), 0.8, 0.05);
+}
+
+TEST(Controller, DoesNothingInATickOfNoLength) {
+  World world;
+  Arm arm(world);
+  Controller controller(arm.robot, elbow_task(), Join::dmp2a);
+  controller.pre_tick(0.0);
+  controller.pre_tick(-1.0);
+  controller.pre_tick(1e-3);
+  EXPECT_TRUE(controller.last_tick().torque.allFinite());
+}
+
 // The state after a while of steps that the world divides as it is told.
 Eigen::VectorXd played_with_substeps(double step, int max_substeps, double fixed) {
   World world;
@@ -146,6 +187,8 @@ struct App {
 
   static double own_torque(int joint) { return 0.7 * (joint + 1); }
   void add_own_torque() {
+    arm.robot.multibody().addBaseTorque(btVector3(5.0, 0.0, 0.0));
+
     for (int i = 0; i < 7; ++i) arm.robot.multibody().addJointTorque(i, own_torque(i));
   }
   static void tick(btDynamicsWorld* world, btScalar dt) {
@@ -190,7 +233,7 @@ TEST(Controller, RefusesWhatItCannotPlay) {
   EXPECT_THAT(refused(Sequence().then(learn(ramp("elbow", 0.0, 1.0)))),
               testing::HasSubstr("\"elbow\""));
   EXPECT_THAT(refused(Sequence().then(learn(ramp("E1", 0.0, 3.0)))),
-              testing::StartsWith("controller: joint \"E1\": goal 3.000000, must be in -2.391"));
+              testing::StartsWith("joint \"E1\": goal 3.000000, must be in -2.391"));
   EXPECT_EQ(refused(Sequence()), "sequence: empty, must have at least one primitive");
   ControlSettings control;
   control.Kd = NAN;

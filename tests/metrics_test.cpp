@@ -65,6 +65,14 @@ TEST(TorqueJump, IsNotANumberTooCloseToAnEnd) {
   EXPECT_TRUE(std::isnan(measure(recording, recording.joins[0]).torque_jump_nm));
 }
 
+TEST(TorqueJump, OfARunIsNotANumberWhereOneOfItsJoinsCannotBeMeasured) {
+  Recording recording = recording_of(1e-3, [](double t) { return t; });
+  recording.joins.push_back({2e-3, 0, 1.0});
+  EXPECT_TRUE(std::isnan(measure(recording).torque_jump_nm));
+  recording.joins = {{2e-3, 0, 1.0}, {join, 1, 3.0}};
+  EXPECT_TRUE(std::isnan(measure(recording).torque_jump_percent));
+}
+
 TEST(RunMetrics, OfKnownSignals) {
   Recording recording = recording_of(1e-3, [](double t) { return 7.0 * t; });
   for (int k = 0; k < recording.ticks(); ++k) {

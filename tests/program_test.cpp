@@ -1,10 +1,10 @@
-#include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
+#include "tests/run_program.hpp"
 #include "tests/support.hpp"
 
 namespace seam {
@@ -14,21 +14,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Outcome {
-  int status;
-  std::string output;  // and errors
-};
-
-Outcome run(const std::string& arguments) {
-  FILE* pipe =
-      popen((std::string(SEAM_PROGRAM) + " " + arguments + " 2>&1 </dev/null").c_str(), "r");
-  Outcome outcome{-1, {}};
-  char part[4096];
-  for (std::size_t n = 0; (n = fread(part, 1, sizeof part, pipe)) > 0;)
-    outcome.output.append(part, n);
-  outcome.status = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
+using test::Outcome;
+using test::run;
 
 std::vector<std::string> files_below(const std::string& folder) {
   std::vector<std::string> files;
@@ -76,6 +63,65 @@ TEST(Program, SummaryHoldsTheFiguresOfEveryRunAndJoin) {
     EXPECT_TRUE(only["metrics"][metric].is_number()) << metric;
 }
 
+TEST(Program, DrawsScenesWithAnyTitleIntoAnyFolder) {
+  const TempFolder folder;
+  std::string scene = test::read_file(std::string(SEAM_SCENES) + "/line.yaml");
+  for (std::size_t at = 0; (at = scene.find("../assets")) != std::string::npos;)
+    scene.replace(at, 9, SEAM_ASSETS);
+  const std::string title = "title: ";
+  scene.insert(scene.find(title) + title.size(), "The arm's $1 \\\"ramps\\\" of_joint ");
+  const std::string path = folder.write("odd name.yaml", scene);
+  const std::string out = folder.path("it's here");
+  const Outcome outcome = run("run '" + path + "' --method dmp2 --out \"" + out + "\"");
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_GT(std::filesystem::file_size(out + "/odd name/odd name.png"), 10000U);
+}
+
+TEST(Program, SaysSoBeforeItPlaysWhereThereIsNoGnuplot) {
+  const TempFolder folder;
+  const std::string out = folder.path("r");
+  const Outcome outcome = run("run line --method dmp2 --out " + out, "PATH=/nowhere ");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.output,
+            "seam: gnuplot: cannot be run, it is needed for the pictures (Debian: gnuplot-nox)\n");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(Program, LeavesNoPictureWhereTheDiskIsFull) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path("r/line"));
+  std::filesystem::create_symlink("/dev/full", folder.path("r/line/line.png.part"));
+  const Outcome outcome = run("run line --method dmp2 --out " + folder.path("r"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("line.png: gnuplot cannot draw it"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("r/line/line.png")));
+}
+
+// The table in the README is what the bench prints, but for the columns that are rounding noise.
+TEST(Program, PrintsTheTableOfTheReadme) {
+  const auto rows = [](const std::string& text) {
+    std::vector<std::vector<std::string>> table;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("| ", 0) != 0 || line.find("dmp") == std::string::npos) continue;
+      std::vector<std::string> cells;
+      std::istringstream fields(line);
+      for (std::string cell; std::getline(fields, cell, '|');) cells.push_back(cell);
+      table.push_back(cells);
+    }
+    return table;
+  };
+  const TempFolder folder;
+  const std::string readme = test::read_file(std::string(SEAM_README));
+  const auto begin = readme.find("<!-- table -->");
+  const auto printed = rows(run("bench --out " + folder.path("r")).output);
+  const auto shown = rows(readme.substr(begin, readme.find("<!-- /table -->") - begin));
+  ASSERT_EQ(printed.size(), shown.size());
+  for (std::size_t r = 0; r < printed.size(); ++r)
+    for (const std::size_t c : {1U, 2U, 3U, 4U, 6U, 7U, 8U, 9U, 12U})
+      EXPECT_EQ(printed[r][c], shown[r][c]) << r;
+}
+
 TEST(Program, HelpsWithExitCodeZero) {
   for (const char* arguments : {"--help", "bench --help", "run --help", "--version"}) {
     const Outcome outcome = run(arguments);
@@ -109,6 +155,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoMethod", "run line", "--method is required"},
         BadCall{"NegativeTick", "bench line --dt -1", "--dt"},
         BadCall{"NoJobs", "bench line --jobs 0", "--jobs"},
+        BadCall{"TickThatIsNotANumber", "bench line --dt nan", "--dt: nan"},
+        BadCall{"TickTooLongForTheGains", "bench line --dt 0.05", "line: a tick of 0.05"},
+        BadCall{"NoFolder", "bench line --out ''", "--out: is empty"},
+        BadCall{"SceneTwice", "bench line line", "scene \"line\": given twice"},
         BadCall{"UnwritableFolder", "bench line --out /proc/seam", "/proc/seam"}),
     [](const auto& bad) { return bad.param.name; });
 

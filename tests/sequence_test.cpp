@@ -38,7 +38,22 @@ TEST(Sequence, RefusesWhatCannotBePlayed) {
   for (const Switch bad :
        {before_end(1.0), before_end(NAN), after(0.0), after(-1.0), after(INFINITY)})
     EXPECT_THAT(refusal([&] { Sequence().then(primitive).until(bad); }),
-                testing::StartsWith("sequence: primitive 1: its switch is due"));
+                testing::StartsWith("sequence: primitive 1: its switch "));
+  const Primitive rhythm = test::random_primitive(random, 2, 20, Kind::rhythmic);
+  EXPECT_EQ(refusal([&] { Sequence().then(rhythm).until(before_end(0.1)); }),
+            "sequence: primitive 1: is rhythmic and has no end, its switch must be another than "
+            "before_end");
+  EXPECT_EQ(refusal([&] { Sequence().then(primitive).until(after_cycles(1.0)); }),
+            "sequence: primitive 1: is discrete and has no cycles, its switch must be another than "
+            "cycles");
+  EXPECT_EQ(refusal([&] { Sequence().then(primitive).until(at_phase(1.5)); }),
+            "sequence: primitive 1: its switch is at phase 1.500000, must be in (0, 1)");
+  EXPECT_EQ(refusal([&] { Sequence().then(primitive).until(near_goal(0.0)); }),
+            "sequence: primitive 1: its switch is at a distance of 0.000000, must be > 0");
+  EXPECT_EQ(refusal([&] { Sequence().then(primitive).enter(from_phase(1.0)); }),
+            "sequence: primitive 1: is discrete and always entered at its beginning");
+  EXPECT_EQ(refusal([&] { Sequence().then(rhythm).enter(from_phase(NAN)); }),
+            "sequence: primitive 1: its entry phase is not finite");
   primitive.tau = -1.0;
   EXPECT_EQ(refusal([&] { Sequence().then(primitive); }), "primitive: tau -1.000000, must be > 0");
 }

@@ -64,20 +64,36 @@ inline Demonstration minimum_jerk(double distance = 1.0, double duration = 1.0) 
 }
 
 /// A random, valid primitive with forcing of realistic size.
-inline Primitive random_primitive(std::mt19937_64& random, int dimensions, int kernels = 10) {
+inline Primitive random_primitive(std::mt19937_64& random, int dimensions, int kernels = 10,
+                                  Kind kind = Kind::discrete) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&](double scale) {
     return Eigen::VectorXd(
         Eigen::VectorXd::NullaryExpr(dimensions, [&] { return scale * uniform(random); }));
   };
   Primitive primitive;
+  primitive.kind = kind;
   for (int d = 0; d < dimensions; ++d) primitive.coordinates.push_back("y" + std::to_string(d));
   primitive.gains = Gains::critical(200.0 + 100.0 * uniform(random));
   primitive.tau = 1.0 + 0.6 * uniform(random);
   primitive.kernels =
       Kernels::even_in_time(kernels, 0.75 + 0.25 * uniform(random), primitive.alpha);
+  if (kind == Kind::rhythmic) {
+    primitive.kernels = Kernels::even_in_phase(kernels, 1.0 + 0.2 * uniform(random));
+    primitive.tau /= 2.0 * M_PI;
+  }
   primitive.weights =
       Eigen::MatrixXd::NullaryExpr(kernels, dimensions, [&] { return 200.0 * uniform(random); });
+  if (kind == Kind::rhythmic) {
+    // Three harmonics, as a movement that is shown has.
+    primitive.weights.setZero();
+    for (int d = 0; d < dimensions; ++d)
+      for (int h = 1; h <= 3; ++h) {
+        const double phase = M_PI * uniform(random);
+        primitive.weights.col(d).array() +=
+            200.0 / h * uniform(random) * (h * primitive.kernels.centers.array() + phase).cos();
+      }
+  }
   primitive.goal = vector(1.0);
   primitive.start_position = vector(1.0);
   primitive.start_velocity = vector(0.5);

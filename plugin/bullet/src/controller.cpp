@@ -17,19 +17,6 @@ std::vector<Eigen::Index> joints_of(const Sequence& sequence, const RobotModel& 
   return joints;
 }
 
-void require_reachable(const Sequence& sequence, const std::vector<Eigen::Index>& joints,
-                       const RobotModel& model) {
-  for (const Sequence::Step& step : sequence.steps())
-    for (std::size_t c = 0; c < joints.size(); ++c) {
-      const Joint& joint = model.joints[static_cast<std::size_t>(joints[c])];
-      const double goal = step.primitive.goal(static_cast<Eigen::Index>(c));
-      if (goal < joint.lower || goal > joint.upper)
-        throw Error("controller", "joint \"" + joint.name + "\": goal " + std::to_string(goal) +
-                                      ", must be in " + std::to_string(joint.lower) + " to " +
-                                      std::to_string(joint.upper));
-    }
-}
-
 Sample measured(const Robot& robot) {
   Sample state(robot.dof());
   robot.state(state.position, state.velocity);
@@ -50,25 +37,31 @@ const ControlSettings& valid(const ControlSettings& settings) {
   return settings;
 }
 
-// Bullet clears joint torques once per stepSimulation, not per substep. The base of a fixed-base
-// multibody bears a torque that moves nothing and is cleared with them: a mark there tells whether
-// ours still stands.
-bool torque_still_stands(const btMultiBody& multibody) {
-  return multibody.getBaseTorque().x() != 0.0;
-}
-void mark_torque(btMultiBody& multibody) {
-  multibody.addBaseTorque(btVector3(1.0, 0.0, 0.0));
-}
+// Moves nothing: see apply_torque.
+constexpr double mark = 0.1234567890123;  // [N·m]
 
 }  // namespace
 
-Controller::Controller(Robot& robot, const Sequence& sequence, Join method,
+void require_reachable(const Primitive& primitive, const RobotModel& robot) {
+  for (std::size_t c = 0; c < primitive.coordinates.size(); ++c) {
+    const int i = robot.joint(primitive.coordinates[c]);
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    const double goal = primitive.goal(static_cast<Eigen::Index>(c));
+    if (goal < joint.lower || goal > joint.upper)
+      throw Error("joint \"" + joint.name + "\"", "goal " + std::to_string(goal) + ", must be in " +
+                                                      std::to_string(joint.lower) + " to " +
+                                                      std::to_string(joint.upper));
+  }
+}
+
+Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
                        const ControlSettings& settings)
     : robot_(robot),
       joints_(joints_of(sequence, robot.model())),
-      sequencer_(sequence, method, selected(measured(robot), joints_)),
+      sequencer_(sequence, join, selected(measured(robot), joints_)),
       law_(InverseDynamics(robot.model()), valid(settings)) {
-  require_reachable(sequence, joints_, robot.model());
+  for (const Sequence::Step& step : sequence.steps())
+    require_reachable(step.primitive, robot.model());
   const Sample state = measured(robot);
   tick_.q = state.position;
   tick_.qd = state.velocity;
@@ -85,6 +78,7 @@ Controller::~Controller() {
 }
 
 void Controller::pre_tick(double dt) noexcept {
+  if (!(dt > 0.0)) return;
   tick_.time = sequencer_.time();
   tick_.running = sequencer_.running();
   robot_.state(tick_.q, tick_.qd);
@@ -103,15 +97,21 @@ void Controller::pre_tick(double dt) noexcept {
   apply_torque();
 }
 
+// Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base
+// multibody bears a torque that moves nothing and is cleared with them: if it is still what we left,
+// our joint torques still stand too.
 void Controller::apply_torque() noexcept {
   btMultiBody& multibody = robot_.multibody();
-  if (torque_still_stands(multibody))
+  const bool still_stands = marked_ && multibody.getBaseTorque().x() == base_torque_;
+  if (still_stands)
     applied_ = tick_.torque - applied_;
   else
     applied_ = tick_.torque;
   for (int i = 0; i < robot_.dof(); ++i) multibody.addJointTorque(i, applied_(i));
-  if (!torque_still_stands(multibody)) mark_torque(multibody);
+  if (!still_stands) multibody.addBaseTorque(btVector3(mark, 0.0, 0.0));
   applied_ = tick_.torque;
+  base_torque_ = multibody.getBaseTorque().x();
+  marked_ = true;
 }
 
 }  // namespace seam

@@ -13,7 +13,7 @@ Plugin::Plugin(btMultiBodyDynamicsWorld& world) : world_(world) {
 
 Plugin::~Plugin() {
   for (Controller* controller : controllers_) controller->plugin_ = nullptr;
-  world_.setInternalTickCallback(nullptr, nullptr, true);
+  if (world_.getWorldUserInfo() == this) world_.setInternalTickCallback(nullptr, nullptr, true);
 }
 
 void Plugin::add(Controller& controller) {

@@ -27,6 +27,11 @@ double peak(const Eigen::MatrixXd& signal) {
   return signal.cwiseAbs().maxCoeff();
 }
 
+// NaN where either is: what could not be measured is not reported as good.
+double worse(double a, double b) {
+  return std::isnan(a) || a > b ? a : b;
+}
+
 double worst_rms(const Eigen::MatrixXd& signal) {
   return std::sqrt(signal.array().square().colwise().mean().maxCoeff());
 }
@@ -58,13 +63,14 @@ JoinMetrics measure(const Recording& recording, const RecordedJoin& join) {
 }
 
 RunMetrics measure(const Recording& recording) {
+  if (recording.ticks() < 2) throw Error("recording", "fewer than 2 ticks");
   RunMetrics metrics;
   for (const RecordedJoin& join : recording.joins) {
     const JoinMetrics at = measure(recording, join);
-    metrics.torque_jump_nm = std::max(metrics.torque_jump_nm, at.torque_jump_nm);
-    metrics.torque_jump_percent = std::max(metrics.torque_jump_percent, at.torque_jump_percent);
+    metrics.torque_jump_nm = worse(metrics.torque_jump_nm, at.torque_jump_nm);
+    metrics.torque_jump_percent = worse(metrics.torque_jump_percent, at.torque_jump_percent);
     metrics.acceleration_jump_rad_s2 =
-        std::max(metrics.acceleration_jump_rad_s2, at.acceleration_jump_rad_s2);
+        worse(metrics.acceleration_jump_rad_s2, at.acceleration_jump_rad_s2);
   }
   const Eigen::MatrixXd torque_rate = rate(recording.torque, recording.dt());
   const Eigen::MatrixXd jerk = rate(recording.ref_acc, recording.dt());

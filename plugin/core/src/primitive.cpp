@@ -5,17 +5,31 @@
 
 namespace seam {
 
+namespace {
+
+void require_kernels(int count, double width) {
+  if (count < 2) throw Error("kernels", "count " + std::to_string(count) + ", must be >= 2");
+  if (!(width > 0.0)) throw Error("kernels", "width " + std::to_string(width) + ", must be > 0");
+}
+
+}  // namespace
+
 Kernels Kernels::even_in_time(int count, double width, double alpha) {
-  const std::string place = "kernels";
-  if (count < 2) throw Error(place, "count " + std::to_string(count) + ", must be >= 2");
-  if (!(width > 0.0)) throw Error(place, "width " + std::to_string(width) + ", must be > 0");
-  if (!(alpha > 0.0)) throw Error(place, "alpha " + std::to_string(alpha) + ", must be > 0");
+  require_kernels(count, width);
+  if (!(alpha > 0.0)) throw Error("kernels", "alpha " + std::to_string(alpha) + ", must be > 0");
   Kernels kernels{Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for (int j = 0; j < count; ++j) kernels.centers(j) = std::exp(-alpha * j / (count - 1));
   for (int j = 0; j + 1 < count; ++j)
     kernels.widths(j) = width * std::abs(kernels.centers(j + 1) - kernels.centers(j));
   kernels.widths(count - 1) = kernels.widths(count - 2);
   return kernels;
+}
+
+Kernels Kernels::even_in_phase(int count, double width) {
+  require_kernels(count, width);
+  const double distance = 2.0 * M_PI / count;
+  return {distance * Eigen::VectorXd::LinSpaced(count, 0.0, count - 1.0),
+          Eigen::VectorXd::Constant(count, width * distance)};
 }
 
 namespace {

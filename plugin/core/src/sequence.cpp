@@ -1,5 +1,7 @@
 #include <cmath>
+#include <limits>
 
+#include <seam/basis.hpp>
 #include <seam/error.hpp>
 #include <seam/sequence.hpp>
 
@@ -11,7 +13,46 @@ std::string name(std::size_t step) {
   return "sequence: primitive " + std::to_string(step + 1);
 }
 
+void require_possible(const std::string& place, const Primitive& primitive, const Switch& until) {
+  const bool rhythmic = primitive.kind == Kind::rhythmic;
+  if (!std::isfinite(until.value)) throw Error(place, "its switch has a value that is not finite");
+  if (rhythmic && until.when == Switch::When::before_end)
+    throw Error(place, "is rhythmic and has no end, its switch must be another than before_end");
+  if (!rhythmic && until.when == Switch::When::cycles)
+    throw Error(place, "is discrete and has no cycles, its switch must be another than cycles");
+  if (until.when == Switch::When::near_goal && !(until.value > 0.0))
+    throw Error(place,
+                "its switch is at a distance of " + std::to_string(until.value) + ", must be > 0");
+  if (!rhythmic && until.when == Switch::When::at_phase &&
+      !(until.value > 0.0 && until.value < 1.0))
+    throw Error(place,
+                "its switch is at phase " + std::to_string(until.value) + ", must be in (0, 1)");
+}
+
 }  // namespace
+
+double due(const Primitive& primitive, const Switch& until, double entry_phase) {
+  const Basis basis(primitive);
+  switch (until.when) {
+    case Switch::When::after:
+      return until.value;
+    case Switch::When::before_end:
+      return primitive.tau - until.value;
+    case Switch::When::cycles:
+      return 2.0 * M_PI * primitive.tau * until.value;
+    case Switch::When::at_phase:
+      return basis.time_to(basis.next(until.value, entry_phase), entry_phase, primitive.tau);
+    case Switch::When::near_goal:
+    case Switch::When::on_call:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+Sequence::Step& Sequence::last(const char* caller) {
+  if (steps_.empty()) throw Error("sequence", std::string(caller) + "() before any primitive");
+  return steps_.back();
+}
 
 Sequence& Sequence::start_after(double seconds) {
   if (!(std::isfinite(seconds) && seconds >= 0.0))
@@ -24,19 +65,31 @@ Sequence& Sequence::then(Primitive primitive) {
   primitive.validate();
   if (!steps_.empty() && primitive.coordinates != coordinates())
     throw Error(name(steps_.size()), "its coordinates differ from those of the first primitive");
-  steps_.push_back({std::move(primitive), at_end()});
+  const Switch until = primitive.kind == Kind::rhythmic ? after_cycles(1.0) : at_end();
+  steps_.push_back({std::move(primitive), until, {}});
   return *this;
 }
 
 Sequence& Sequence::until(Switch when) {
-  if (steps_.empty()) throw Error("sequence", "until() before any primitive");
-  Step& step = steps_.back();
-  const double due = when.due(step.primitive.tau);
-  if (!(std::isfinite(due) && due > 0.0))
-    throw Error(name(steps_.size() - 1), "its switch is due " + std::to_string(due) +
-                                             " s after its start, must be > 0 (it lasts " +
-                                             std::to_string(step.primitive.tau) + " s)");
+  Step& step = last("until");
+  const std::string place = name(steps_.size() - 1);
+  require_possible(place, step.primitive, when);
+  const double seconds = due(step.primitive, when, Basis(step.primitive).start_phase());
+  if (!(seconds > 0.0))
+    throw Error(place, "its switch is due " + std::to_string(seconds) +
+                           " s after its start, must be > 0 (its tau is " +
+                           std::to_string(step.primitive.tau) + " s)");
   step.until = when;
+  return *this;
+}
+
+Sequence& Sequence::enter(Entry entry) {
+  Step& step = last("enter");
+  const std::string place = name(steps_.size() - 1);
+  if (step.primitive.kind == Kind::discrete)
+    throw Error(place, "is discrete and always entered at its beginning");
+  if (!std::isfinite(entry.phase)) throw Error(place, "its entry phase is not finite");
+  step.entry = entry;
   return *this;
 }
 
@@ -47,7 +100,14 @@ const std::vector<std::string>& Sequence::coordinates() const {
 
 double Sequence::duration() const {
   double sum = start_delay_;
-  for (const Step& step : steps_) sum += step.until.due(step.primitive.tau);
+  for (const Step& step : steps_) {
+    const double beginning = Basis(step.primitive).start_phase();
+    const bool from_phase = step.entry.where == Entry::Where::phase;
+    sum += due(step.primitive, step.until, from_phase ? step.entry.phase : beginning);
+    if (step.entry.where == Entry::Where::least_correction &&
+        step.until.when == Switch::When::at_phase)
+      return std::numeric_limits<double>::infinity();
+  }
   return sum;
 }
 

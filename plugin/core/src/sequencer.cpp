@@ -10,68 +10,220 @@ namespace {
 
 // Two times closer than this share of a step are the same tick.
 constexpr double same_tick = 1e-6;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// A discrete primitive without forcing: it settles at the goal.
+Primitive rest_of(const Primitive& primitive) {
+  Primitive rest = primitive;
+  rest.kind = Kind::discrete;
+  rest.kernels = Kernels::even_in_time(10, 0.75, rest.alpha);
+  rest.weights.setZero(rest.kernels.count(), rest.dimensions());
+  rest.tau = primitive.kind == Kind::rhythmic ? M_PI * primitive.tau : primitive.tau;
+  return rest;
+}
+
+bool usable(const Sample& at, int dimensions) {
+  for (const Eigen::VectorXd* part : {&at.position, &at.velocity, &at.acceleration, &at.jerk})
+    if (part->size() != dimensions || !part->allFinite()) return false;
+  return true;
+}
 
 }  // namespace
 
-Sequencer::Sequencer(const Sequence& sequence, Join method, const Sample& start)
-    : method_(method), start_(start), start_delay_(sequence.start_delay()) {
-  const std::size_t dimensions = sequence.coordinates().size();
-  if (static_cast<std::size_t>(start.position.size()) != dimensions)
+Sequencer::Sequencer(const Sequence& sequence, const JoinSettings& join, const Sample& start)
+    : join_(join),
+      start_(start),
+      start_delay_(sequence.start_delay()),
+      coordinates_(sequence.coordinates()),
+      scaled_(start) {
+  if (static_cast<std::size_t>(start.position.size()) != coordinates_.size())
     throw Error("sequencer", "start has " + std::to_string(start.position.size()) +
-                                 " coordinates, the sequence " + std::to_string(dimensions));
-  if (!start.position.allFinite() || !start.velocity.allFinite() || !start.acceleration.allFinite())
-    throw Error("sequencer", "start is not finite");
+                                 " coordinates, the sequence " +
+                                 std::to_string(coordinates_.size()));
+  if (!usable(start, dimensions())) throw Error("sequencer", "start is not finite");
   if (start_delay_ > 0.0 && !(start.velocity.isZero(0.0) && start.acceleration.isZero(0.0)))
     throw Error("sequencer", "start moves, must be at rest where the first primitive is delayed");
-  for (const Sequence::Step& step : sequence.steps()) {
-    executions_.emplace_back(step.primitive);
-    due_.push_back(step.until.due(step.primitive.tau));
-  }
+  push(sequence);
+  due_ = start_delay_;
+  if (start_delay_ == 0.0) switch_over();
+}
+
+void Sequencer::push(const Sequence& sequence) {
+  if (sequence.coordinates() != coordinates_)
+    throw Error("sequencer", "the coordinates that are added differ from those that are there");
+  for (const Sequence::Step& step : sequence.steps())
+    items_.push_back(
+        {Execution(step.primitive), Execution(rest_of(step.primitive)), step.until, step.entry});
   JoinEvent event;
-  event.acceleration_before = event.acceleration_after = start.acceleration;
-  events_.assign(executions_.size(), event);
-  if (start_delay_ == 0.0) hand_over();
+  event.acceleration_before.setZero(dimensions());
+  event.acceleration_after = event.jerk_before = event.jerk_after = event.acceleration_before;
+  const std::size_t to_come = items_.size() - static_cast<std::size_t>(running_ + 1);
+  events_.resize(joins_ + to_come + 1, event);  // one more for settling at the end
+}
+
+void Sequencer::append(const Sequence& sequence) {
+  push(sequence);
+  if (!finished_) return;
+  finished_ = false;
+  switch_over();
+}
+
+void Sequencer::replace(const Sequence& sequence) {
+  if (sequence.coordinates() != coordinates_)
+    throw Error("sequencer", "the coordinates that are added differ from those that are there");
+  clear();
+  append(sequence);
+}
+
+void Sequencer::clear() noexcept {
+  while (static_cast<int>(items_.size()) > running_ + 1) items_.pop_back();
 }
 
 void Sequencer::step(double dt) noexcept {
-  const double slack = same_tick * dt;
-  for (double left = dt; left > 0.0;) {
-    const double until_due = due() - own_time();
+  const double time = scale_.advance(dt);
+  behind_ += dt - time;
+  advance(time);
+  if (near_goal()) switch_over();
+  rescale();
+}
+
+void Sequencer::rescale() noexcept {
+  if (scale_.is_real_time()) return;
+  const double rate = scale_.rate();
+  scaled_.position = motion().position;
+  scaled_.velocity = rate * motion().velocity;
+  scaled_.acceleration =
+      rate * rate * motion().acceleration + scale_.rate_change() * motion().velocity;
+}
+
+void Sequencer::advance(double time) noexcept {
+  const double slack = same_tick * time;
+  for (double left = time; left > 0.0;) {
+    const double until_due = due() - own_time_;
     const double h = until_due < left - slack ? std::max(until_due, 0.0) : left;
-    advance(h);
+    if (running_ >= 0) now().step(h);
+    own_time_ += h;
     left -= h;
-    if (until_due <= h + slack) hand_over();
+    if (until_due <= h + slack) {
+      if (own_time_ - due() < slack) own_time_ = due();
+      switch_over();
+    }
   }
 }
 
-// In the own time of what runs now.
 double Sequencer::due() const noexcept {
-  if (finished_) return std::numeric_limits<double>::infinity();
-  return running_ < 0 ? start_delay_ : due_[index()];
+  return finished_ ? never : due_;
 }
 
-void Sequencer::advance(double dt) noexcept {
-  if (running_ < 0)
-    waited_ += dt;
-  else
-    executions_[index()].step(dt);
+// After anything that moves the switch: entering, a change of tau, a re-initialisation.
+void Sequencer::update_due() noexcept {
+  const Switch& until = items_[index()].until;
+  const Basis& basis = now().basis();
+  const double tau = now().tau();
+  const double phase = now().phase();
+  switch (until.when) {
+    case Switch::When::after:
+      due_ = until.value;
+      break;
+    case Switch::When::before_end:
+      due_ = own_time_ + basis.time_to(basis.advance(1.0, 1.0, 1.0), phase, tau) - until.value;
+      break;
+    case Switch::When::cycles:
+      due_ = own_time_ + basis.time_to(entry_phase_ + 2.0 * M_PI * until.value, phase, tau);
+      break;
+    case Switch::When::at_phase:
+      due_ = own_time_ + basis.time_to(basis.next(until.value, phase), phase, tau);
+      break;
+    case Switch::When::near_goal:
+    case Switch::When::on_call:
+      due_ = never;
+      break;
+  }
 }
 
-void Sequencer::hand_over() noexcept {
-  if (running_ + 1 == static_cast<int>(executions_.size())) {
-    finished_ = true;
+bool Sequencer::near_goal() const noexcept {
+  if (running_ < 0 || finished_) return false;
+  const Item& item = items_[index()];
+  return item.until.when == Switch::When::near_goal &&
+         (item.execution.goal() - item.execution.sample().position).cwiseAbs().maxCoeff() <=
+             item.until.value;
+}
+
+bool Sequencer::hand_over() noexcept {
+  if (is_last()) return false;
+  finished_ = false;
+  switch_over();
+  return true;
+}
+
+void Sequencer::switch_over() noexcept {
+  if (!is_last()) {
+    Item& next = items_[static_cast<std::size_t>(running_ + 1)];
+    double phase = next.execution.basis().start_phase();
+    if (next.entry.where == Entry::Where::phase) phase = next.entry.phase;
+    if (next.entry.where == Entry::Where::least_correction)
+      phase = next.execution.least_correction_phase(motion());
+    join_to(next.execution, phase, running_ + 1);
+    update_due();
     return;
   }
-  const Sample& before = sample();
-  Execution& next = executions_[static_cast<std::size_t>(running_ + 1)];
-  next.reinitialise(before, next.start_phase(), method_);
-  entered_ += due();
-  ++running_;
-  JoinEvent& event = events_[index()];
-  event.time = entered_;
-  event.primitive = running_;
+  finished_ = true;
+  if (running_ >= 0 && now().kind() == Kind::rhythmic) {
+    Execution& rest = items_[index()].rest;
+    rest.set_goal(now().goal());
+    join_to(rest, rest.basis().start_phase(), running_);
+    settling_ = true;
+  }
+}
+
+void Sequencer::join_to(Execution& next, double phase, int primitive) noexcept {
+  const Sample& before = running_ < 0 ? start_ : now().state();
+  next.reinitialise(before, phase, join_);
+  const Sample& after = next.state();
+  JoinEvent& event = events_[joins_++];
+  entered_ += own_time_;
+  own_time_ = 0.0;
+  running_ = primitive;
+  settling_ = false;
+  entry_phase_ = phase;
+  event.time = time();
+  event.primitive = primitive;
   event.acceleration_before = before.acceleration;
-  event.acceleration_after = next.sample().acceleration;
+  event.acceleration_after = after.acceleration;
+  event.jerk_before = before.jerk;
+  event.jerk_after = after.jerk;
+}
+
+bool Sequencer::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {
+  const bool done = running_ >= 0 && now().set_goal(goal);
+  rescale();
+  return done;
+}
+
+bool Sequencer::set_tau(double tau) noexcept {
+  if (running_ < 0 || !now().set_tau(tau)) return false;
+  if (!finished_) update_due();
+  rescale();
+  return true;
+}
+
+bool Sequencer::set_rate(double rate, double over) noexcept {
+  const bool done = scale_.change(rate, over);
+  rescale();
+  return done;
+}
+
+bool Sequencer::set_amplitude(double amplitude) noexcept {
+  const bool done = running_ >= 0 && now().set_amplitude(amplitude);
+  rescale();
+  return done;
+}
+
+bool Sequencer::reinitialise(const Sample& at) noexcept {
+  if (running_ < 0 || !usable(at, dimensions())) return false;
+  scale_ = TimeScale();
+  now().reinitialise(at, now().phase(), join_);
+  return true;
 }
 
 }  // namespace seam

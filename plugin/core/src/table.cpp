@@ -38,21 +38,22 @@ std::string_view take_until(std::string_view& rest, char separator) {
   return head;
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
   for (std::size_t begin = 0; begin <= line.size();) {
     const auto end = std::min(line.find(',', begin), line.size());
     fields.push_back(trimmed(line.substr(begin, end - begin)));
     begin = end + 1;
   }
-  return fields;
 }
 
 std::vector<std::string> read_header(const std::string& place, std::string_view line) {
   if (line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
   std::vector<std::string> columns;
   std::set<std::string_view> seen;
-  for (const std::string_view name : split(line)) {
+  std::vector<std::string_view> names;
+  split(line, names);
+  for (const std::string_view name : names) {
     if (name.empty())
       throw Error(place, "column " + std::to_string(columns.size() + 1) + " has no name");
     if (!seen.insert(name).second)
@@ -62,22 +63,29 @@ std::vector<std::string> read_header(const std::string& place, std::string_view 
   return columns;
 }
 
-double read_number(const std::string& place, const std::string& column, std::string_view field) {
+// A line of the file, for messages.
+struct Place {
+  const std::string& path;
+  int line;
+
+  std::string text() const { return path + ":" + std::to_string(line); }
+};
+
+double read_number(const Place& place, const std::string& column, std::string_view field) {
   if (!field.empty() && field.front() == '+') field.remove_prefix(1);
   double value = 0.0;
   const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (status != std::errc{} || end != field.data() + field.size() || !std::isfinite(value))
-    throw Error(place, "column \"" + column + "\": \"" + std::string(field) +
-                           "\", must be a finite number");
+    throw Error(place.text(), "column \"" + column + "\": \"" + std::string(field) +
+                                  "\", must be a finite number");
   return value;
 }
 
-void read_row(const std::string& place, const std::vector<std::string>& columns,
-              std::string_view line, std::vector<double>& values) {
-  const auto fields = split(line);
+void read_row(const Place& place, const std::vector<std::string>& columns,
+              const std::vector<std::string_view>& fields, std::vector<double>& values) {
   if (fields.size() != columns.size())
-    throw Error(place, std::to_string(fields.size()) + " fields, must be " +
-                           std::to_string(columns.size()) + " as in the header");
+    throw Error(place.text(), std::to_string(fields.size()) + " fields, must be " +
+                                  std::to_string(columns.size()) + " as in the header");
   for (std::size_t c = 0; c < fields.size(); ++c)
     values.push_back(read_number(place, columns[c], fields[c]));
 }
@@ -98,10 +106,12 @@ Table Table::read(const std::string& path) {
   Table table;
   table.columns = read_header(path + ":1", take_until(rest, '\n'));
   std::vector<double> values;
+  std::vector<std::string_view> fields;
   for (int line = 2; !rest.empty(); ++line) {
     const std::string_view text = take_until(rest, '\n');
     if (trimmed(text).empty() && trimmed(rest).empty()) break;
-    read_row(path + ":" + std::to_string(line), table.columns, text, values);
+    split(text, fields);
+    read_row({path, line}, table.columns, fields, values);
   }
   if (values.empty()) throw Error(path, "no rows below the header");
   const auto C = static_cast<Eigen::Index>(table.columns.size());

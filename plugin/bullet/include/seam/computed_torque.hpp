@@ -13,9 +13,13 @@ struct ControlSettings {
   /// leaves an error of order dt.
   enum class Reference { matched, plain };
 
+  // The feedback acts once per tick: stable while Kd·dt + Kp·dt²/2 < 2, by default dt < 41 ms.
   double Kp = 400.0;  // [1/s²] feedback on position
   double Kd = 40.0;   // [1/s] feedback on velocity
   Reference reference = Reference::matched;
+
+  /// Whether the feedback is stable at a tick dt [s].
+  bool stable_at(double dt) const noexcept { return Kd * dt + 0.5 * Kp * dt * dt < 2.0; }
 };
 
 /// Computed torque: inverse dynamics at an acceleration that follows a joint reference. (q, q̇) in,

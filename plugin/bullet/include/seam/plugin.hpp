@@ -13,8 +13,9 @@ class Controller;
 ///
 /// A Bullet world has one pre-tick slot and one user pointer, and the plugin takes both
 /// (`setInternalTickCallback(…, isPreTick = true)`). An app that needs them calls
-/// `Controller::pre_tick` from its own callback and leaves the plugin out. The world is borrowed; a
-/// controller may go before or after the plugin.
+/// `Controller::pre_tick` from its own callback and leaves the plugin out. Whoever takes the slot last
+/// has it; a plugin that has lost it leaves it alone. The world is borrowed and must outlive the
+/// plugin; a controller may go before or after it.
 class Plugin {
  public:
   explicit Plugin(btMultiBodyDynamicsWorld& world);

@@ -6,26 +6,43 @@
 
 namespace seam {
 
-/// The canonical system and the kernels of a primitive, ready for evaluation in a hot path.
+/// The canonical system and the kernels of a primitive, ready for evaluation in a hot path. The phase p
+/// is x or φ; with s = x (discrete) or 1 (rhythmic) the regressor is
+///     aⱼ(p) = s·ψⱼ(p)/Σψ(p),  so that f = aᵀw     (Eqs. 2, 9; a row of A in Eq. 15)
+/// Exponents are taken relative to the largest, so that Σψ never vanishes however far p is from all
+/// centres. Evaluation neither allocates nor throws.
 class Basis {
  public:
-  Basis(const Kernels& kernels, double alpha);
+  explicit Basis(const Primitive& primitive);
 
-  int count() const noexcept { return static_cast<int>(centers_.size()); }
-  double start_phase() const noexcept { return 1.0; }
-  /// The phase a time t after it was `phase`: x·exp(−αt/τ), Eq. 4 in closed form.
-  double advance(double phase, double t, double tau) const noexcept {
-    return phase * std::exp(-alpha_ * t / tau);
-  }
-  /// a(x) with f(x) = a(x)ᵀw: aⱼ = x·ψⱼ/Σψ (Eq. 2; a row of A in Eq. 15). Exponents are taken
-  /// relative to the largest, so that Σψ never vanishes however far x is from all centres.
-  /// @param row  count() values
-  void regressor(double phase, Eigen::Ref<Eigen::ArrayXd> row) const noexcept;
+  Kind kind() const noexcept { return kind_; }
+  int count() const noexcept { return count_; }
+  /// x = 1 or φ = 0.
+  double start_phase() const noexcept { return kind_ == Kind::discrete ? 1.0 : 0.0; }
+  /// The phase a time t [s] after it was `phase`, in closed form: x·exp(−αt/τ) (Eq. 4) or φ + t/τ (Eq. 11).
+  double advance(double phase, double t, double tau) const noexcept;
+  /// Time [s] from a phase until another: x falls, φ rises; negative where it has passed.
+  double time_to(double later, double phase, double tau) const noexcept;
+  /// The phase at which a value comes next: x itself, or the φ + 2πn that follows.
+  double next(double value, double phase) const noexcept;
+  /// dp/dt.
+  double phase_rate(double phase, double tau) const noexcept;
+
+  /// a(p); count() values.
+  void regressor(double phase, double* row) const noexcept;
+  /// a(p) at two phases at once, one row behind the other; 2·count() values.
+  void regressors(double first, double second, double* rows) const noexcept;
+  /// da/dp at the phase for which a(p) is `row`; count() values.
+  void slope(double phase, const double* row, double* slope) const noexcept;
 
  private:
-  Eigen::ArrayXd centers_;
-  Eigen::ArrayXd precision_;  // 1/2σ²
+  Kind kind_;
   double alpha_;
+  int count_;
+  // Filled up with zeros to a multiple of four.
+  Eigen::ArrayXd centers_;
+  Eigen::ArrayXd precision_;        // 1/2σ²
+  Eigen::ArrayXd cosines_, sines_;  // of the centres
 };
 
 }  // namespace seam

@@ -9,45 +9,98 @@
 
 namespace seam {
 
-/// A primitive while it runs: its state, its own copy of the weights, and the integration of Eqs.
-/// 1–5. Construction allocates; nothing after it does.
+/// A primitive while it runs: its state, its own copy of the weights, and the integration of its equations.
+/// Construction allocates; nothing after it does, and nothing after it throws.
+///
+/// Starting, joining and every change on the way are one act: *re-initialise at a state and a phase*. v = τẏ
+/// always holds; with a = a(p), w the learned weights and the forcing that the state needs,
+///     F = τ²ÿ + τDẏ − K(g − y),   Ḟ = τ²y⃛ + τDÿ + Kẏ        (Eq. 19 and its derivative)
+/// a method sets
+///     dmp2   r = g
+///     dmp2a  r = g,  Δw = a·(F − aᵀw)/|a|² (Eq. 21, in which the scale of ψ cancels), or one kernel's change
+///     dmp3   r = y + (τ²ÿ + τDẏ − aᵀw)/K   (Eq. 6)
+///     dmp2j  r = g,  Δw the smallest with aᵀ(w + Δw) = F and ȧᵀ(w + Δw) = Ḟ
+/// A discrete primitive needs no undo of Δw: x fades. A rhythmic one blends it out over half a cycle by
+/// 1 − (10s³ − 15s⁴ + 6s⁵).
+///
+/// Weights lose their hold where a discrete phase has faded to x < 0.05, where a and ȧ are nearly parallel (dmp2j:
+/// one kernel alone is left; sin² < 10⁻³), and where the first kernel, changed alone, is weaker than a tenth of the
+/// strongest. dmp2a and dmp2j then add the missing forcing F − aᵀw itself and blend it out over τ/2 (rhythmic: half a
+/// cycle) by the same polynomial; dmp2j by the quintic that begins with the rate Ḟ − ȧᵀw as well.
 class Execution {
  public:
-  /// Stands at the primitive's own start (phase 1, the demonstration's first position and velocity,
-  /// r = g).
+  /// Stands at the primitive's own start (the demonstration's first position and velocity, r = g).
   /// @throws Error  the primitive is not valid
   explicit Execution(const Primitive& primitive);
 
-  /// Continues from a state at a phase of the primitive, as the method says (see `continue_from`).
-  void reinitialise(const Sample& at, double phase, Join method) noexcept;
+  /// Continues from a state at a phase of the primitive.
+  void reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept;
   /// Advances by dt [s] ≥ 0. Exact in the linear part, of fourth order in the forcing.
   void step(double dt) noexcept;
 
+  /// Changes on the way; the execution continues from its present state by the method it was last
+  /// re-initialised with. False, and nothing is changed, where a value is not finite or out of range.
+  bool set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept;
+  bool set_tau(double tau) noexcept;              // [s] > 0
+  bool set_amplitude(double amplitude) noexcept;  // of a rhythmic primitive's forcing; 1 as learned
+
+  /// The present state without the jerk.
   const Sample& sample() const noexcept { return sample_; }
+  /// The present state with the jerk, y⃛ = (K(ṙ − ẏ) − τDÿ + ḟ)/τ².
+  const Sample& state() noexcept;
+
+  /// Square of the step in acceleration, over all coordinates, that dmp2 would leave if the execution were
+  /// re-initialised at a state and a phase: what the other methods have to make up for.
+  double correction(const Sample& at, double phase) noexcept;
+  /// The phase of a rhythmic primitive at which the least correction is needed to continue from a state.
+  double least_correction_phase(const Sample& at) noexcept;
+
+  Kind kind() const noexcept { return basis_.kind(); }
+  const Basis& basis() const noexcept { return basis_; }
   double phase() const noexcept { return phase_; }
-  double elapsed() const noexcept { return elapsed_; }  // [s] since the last re-initialisation
-  double tau() const noexcept { return tau_; }          // [s]
-  double start_phase() const noexcept { return basis_.start_phase(); }
+  double tau() const noexcept { return tau_; }  // [s]
+  double amplitude() const noexcept { return amplitude_; }
+  Eigen::VectorXd::ConstSegmentReturnType goal() const noexcept { return goal_.head(dimensions()); }
+  int dimensions() const noexcept { return static_cast<int>(sample_.position.size()); }
 
  private:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  struct Forcing {
+    double value, rate;
+  };
+
   void set_step(double dt) noexcept;
-  void forcing(double phase, Eigen::ArrayXd& f) noexcept;
+  void add_corrections(double elapsed, const double* row, Eigen::VectorXd& f) const noexcept;
   void refresh_sample() noexcept;
+  void correct(Eigen::Index d, Forcing missing, const JoinSettings& join) noexcept;
+  Forcing learned(Eigen::Index d) const noexcept;
+  Forcing needed(const Sample& at, Eigen::Index d) const noexcept;
+  double fade_time() const noexcept;
+  bool weights_hold(const JoinSettings& join) const noexcept;
+  double valley(const Sample& at, double low, double high) noexcept;
 
   Gains gains_;
   double tau_;
+  double amplitude_ = 1.0;
   Basis basis_;
-  Eigen::MatrixXd learned_weights_;  // M × D, as in the primitive
-  Eigen::MatrixXd weights_;          // M × D, as joined
+  JoinSettings join_;
+  // Coordinates lie behind one another, padded to a multiple of four.
+  Rows weights_;                        // M × D, as learned
+  Rows change_;                         // M × D, Δw of the last re-initialisation
+  Eigen::VectorXd extra_, extra_rate_;  // D, forcing added where weights have lost their hold
   Eigen::VectorXd goal_;
+  Eigen::VectorXd offset_, velocity_, lag_;  // y − g, ẏ, r − g
+  Eigen::VectorXd f_start_, f_middle_, f_end_;
+  Eigen::VectorXd rows_;   // 2M, a(p) at the middle and the end of a step
+  Eigen::VectorXd slope_;  // M, ȧ
+  bool changed_ = false;   // change_ is not zero
+  bool extended_ = false;  // extra_ is not zero
   Propagator propagator_;
   double dt_ = 0.0;
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
-  double elapsed_ = 0.0;
-  Eigen::ArrayXd row_;                      // M
-  Eigen::ArrayXd offset_, velocity_, lag_;  // y − g, ẏ, r − g
-  Eigen::ArrayXd f_start_, f_middle_, f_end_;
+  double elapsed_ = 0.0;  // [s] since the last re-initialisation
   Sample sample_;
 };
 

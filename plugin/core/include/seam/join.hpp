@@ -6,51 +6,53 @@
 
 #include <Eigen/Core>
 
-#include <seam/primitive.hpp>
-
 namespace seam {
 
 /// How an execution takes over from whatever ran before it.
 enum class Join {
-  dmp2,   // y and ẏ continue; ÿ steps
-  dmp2a,  // y, ẏ and ÿ continue: the smallest change of the weights that gives the right forcing
-          // (Eq. 21)
-  dmp3,   // y, ẏ and ÿ continue: the filtered goal r starts where it gives the right ÿ (Eq. 6)
+  dmp2,   ///< y and ẏ continue; ÿ steps
+  dmp2a,  ///< y, ẏ and ÿ continue: the weights are changed so that the forcing gives the right ÿ (Eqs. 19–22)
+  dmp3,  ///< y, ẏ and ÿ continue: the filtered goal r starts where it gives the right ÿ (Eq. 6)
+  dmp2j,  ///< y, ẏ, ÿ and the jerk continue: as dmp2a, with the forcing's rate as a second condition
 };
 
-inline constexpr std::array<Join, 3> all_joins{Join::dmp2, Join::dmp2a, Join::dmp3};
+inline constexpr std::array<Join, 4> all_joins{Join::dmp2, Join::dmp2a, Join::dmp3, Join::dmp2j};
 
 std::string_view to_string(Join method) noexcept;
 /// @throws Error  no such method (lists those there are)
 Join join_from_name(std::string_view name);
 
-/// Position, velocity and acceleration of D coordinates at one instant [rad or m, per s, per s²].
+/// Which weights dmp2a changes. The paper's (20) and (22) as printed leave out Σψ and leave a step in
+/// acceleration; these are corrected.
+enum class WeightChange {
+  smallest,   ///< the change of least norm, by the pseudo-inverse (Eq. 21)
+  first,      ///< the first kernel's alone (Eq. 20, corrected)
+  strongest,  ///< that of the kernel which is strongest at the phase (Eq. 22, corrected)
+};
+
+struct JoinSettings {
+  Join method = Join::dmp3;
+  WeightChange change = WeightChange::smallest;  // of dmp2a
+
+  JoinSettings() = default;
+  JoinSettings(Join join, WeightChange weight_change = WeightChange::smallest)
+      : method(join), change(weight_change) {}
+};
+
+/// Position, velocity, acceleration and jerk of D coordinates at one instant [rad or m, per s, per s², per s³].
 struct Sample {
   Eigen::VectorXd position;
   Eigen::VectorXd velocity;
   Eigen::VectorXd acceleration;
+  Eigen::VectorXd jerk;  // only where it is asked for: see Execution::state
 
   explicit Sample(int dimensions = 0)
       : position(Eigen::VectorXd::Zero(dimensions)),
         velocity(Eigen::VectorXd::Zero(dimensions)),
-        acceleration(Eigen::VectorXd::Zero(dimensions)) {}
+        acceleration(Eigen::VectorXd::Zero(dimensions)),
+        jerk(Eigen::VectorXd::Zero(dimensions)) {}
   /// At rest.
   static Sample at_rest(const Eigen::VectorXd& position);
 };
-
-/// The one act behind starting, joining and changing goal or τ: set what the method is free to set
-/// so that an execution continues from a state. v = τẏ always holds; with a = a(p) at the entry
-/// phase p:
-///     dmp2   r = g
-///     dmp2a  r = g,  w += a·(F − aᵀw)/|a|²,  F = τ²ÿ + τDẏ − K(g − y)      (Eqs. 19, 21)
-///     dmp3   r = (τ²ÿ + τDẏ − aᵀw)/K + y                                   (Eq. 6)
-/// (21) is written with the regressor a = sψ/Σψ of Eq. 2, in which the scale of ψ cancels.
-/// @param at       state to continue from
-/// @param row      a(p), M
-/// @param weights  M × D, the execution's own copy
-/// @param r        D, the filtered goal
-void continue_from(const Sample& at, Join method, const Gains& gains, double tau,
-                   const Eigen::VectorXd& goal, const Eigen::ArrayXd& row, Eigen::MatrixXd& weights,
-                   Eigen::ArrayXd& r) noexcept;
 
 }  // namespace seam

@@ -20,33 +20,43 @@ struct Gains {
   static Gains paper() { return {200.0, 28.0, 14.0}; }
 };
 
-/// Gaussian kernels ψⱼ(x) = exp(−(x − cⱼ)²/2σⱼ²) over the discrete phase (Eq. 3).
+/// Whether a movement leads to a goal or repeats.
+enum class Kind { discrete, rhythmic };
+
+/// Kernels over the phase: centres cⱼ and widths σⱼ.
+///     discrete  ψⱼ(x) = exp(−(x − cⱼ)²/2σⱼ²)             (Eq. 3)
+///     rhythmic  ψⱼ(φ) = exp((cos(φ − cⱼ) − 1)/2σⱼ²)      (Eq. 10)
 struct Kernels {
-  Eigen::VectorXd centers;  // cⱼ, in (0, 1], falling
+  Eigen::VectorXd centers;  // cⱼ: in (0, 1] if discrete, [rad] if rhythmic
   Eigen::VectorXd widths;   // σⱼ > 0
 
   int count() const { return static_cast<int>(centers.size()); }
 
-  /// Centres even in time, cⱼ = exp(−α(j − 1)/(M − 1)), and widths σⱼ = width·|cⱼ₊₁ − cⱼ| (the last
-  /// repeats the one before). The paper's σ = 0.5 is read as such a multiple of the distance
+  /// Discrete: centres even in time, cⱼ = exp(−α(j − 1)/(M − 1)), and widths σⱼ = width·|cⱼ₊₁ − cⱼ|
+  /// (the last repeats the one before). The paper's σ = 0.5 is read as such a multiple of the distance
   /// between neighbours: as an absolute width it leaves a matrix of condition 3·10¹³.
   /// @throws Error  count < 2, width ≤ 0, alpha ≤ 0
   static Kernels even_in_time(int count, double width, double alpha);
+  /// Rhythmic: centres 2π(j − 1)/M, all widths σ = width·2π/M.
+  /// @throws Error  count < 2, width ≤ 0
+  static Kernels even_in_phase(int count, double width);
 };
 
-/// A discrete dynamic movement primitive for D coordinates on one phase: what was learned, as a
-/// value.
-///     τv̇ = K(r − y) − Dv + f(x),  τẏ = v,  τṙ = H(g − r),  τẋ = −αx        (Eqs. 1, 4, 5)
-///     f(x) = x·Σwⱼψⱼ(x)/Σψⱼ(x)                                             (Eq. 2)
-/// The second-order system is the same with r = g throughout.
+/// A dynamic movement primitive for D coordinates on one phase: what was learned, as a value.
+///     τv̇ = K(r − y) − Dv + f,  τẏ = v,  τṙ = H(g − r)          (Eqs. 1, 5)
+///     discrete  f(x) = x·Σwⱼψⱼ(x)/Σψⱼ(x),  τẋ = −αx             (Eqs. 2, 4)
+///     rhythmic  f(φ) = A·Σwⱼψⱼ(φ)/Σψⱼ(φ),  τφ̇ = 1               (Eqs. 9, 11)
+/// The second-order system is the same with r = g throughout. A rhythmic primitive of period T has
+/// τ = T/2π; its goal is the centre about which it moves; its amplitude A is 1 as learned.
 struct Primitive {
+  Kind kind = Kind::discrete;
   std::vector<std::string> coordinates;  // D names
   Gains gains;
-  double alpha = 2.0;                  // decay of the phase
+  double alpha = 2.0;                  // decay of the discrete phase
   Kernels kernels;                     // M
   Eigen::MatrixXd weights;             // M × D
   Eigen::VectorXd goal;                // D
-  double tau = 1.0;                    // [s] time constant; the demonstration's duration
+  double tau = 1.0;                    // [s] time constant: a demonstration's duration, or T/2π
   Eigen::VectorXd start_position;      // D, where the demonstration began
   Eigen::VectorXd start_velocity;      // D, per second
   Eigen::VectorXd start_acceleration;  // D, per second squared
@@ -54,8 +64,7 @@ struct Primitive {
   int dimensions() const { return static_cast<int>(goal.size()); }
 
   /// @throws Error  names the first entry that cannot be executed: sizes that do not match, values
-  /// that
-  ///                are not finite, tau, alpha, gains or widths ≤ 0, coordinate names that repeat
+  ///                that are not finite, tau, alpha, gains or widths ≤ 0, coordinate names that repeat
   void validate() const;
 };
 

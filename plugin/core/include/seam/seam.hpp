@@ -7,7 +7,10 @@
 #include <seam/join.hpp>
 #include <seam/learn.hpp>
 #include <seam/metrics.hpp>
+#include <seam/orientation.hpp>
+#include <seam/period.hpp>
 #include <seam/primitive.hpp>
 #include <seam/recording.hpp>
+#include <seam/recursive_learner.hpp>
 #include <seam/sequence.hpp>
 #include <seam/sequencer.hpp>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <seam/primitive.hpp>
@@ -8,59 +9,102 @@ namespace seam {
 
 /// When a primitive hands over to the next (the last one: when the sequence counts as finished).
 struct Switch {
-  enum class When { after, before_end };
+  enum class When {
+    after,       ///< a time [s] after the primitive has begun
+    before_end,  ///< a time [s] before a discrete primitive's end, which is tau after its beginning
+    at_phase,    ///< when x has fallen to, or φ has risen to, a value (φ: its next occurrence)
+    near_goal,   ///< at the first tick with all coordinates within a distance of the goal
+    cycles,      ///< after a number of a rhythmic primitive's cycles
+    on_call,     ///< when Sequencer::hand_over is called, and not before
+  };
 
   When when = When::before_end;
-  double seconds = 0.0;  // [s] ≥ 0
-
-  /// Time [s] after the start of a primitive with this tau at which the switch is due.
-  double due(double tau) const { return when == When::after ? seconds : tau - seconds; }
+  double value = 0.0;  // [s], phase, [rad or m], or number, as `when` says
 };
 
-/// A time [s] after the primitive has begun.
 inline Switch after(double seconds) {
   return {Switch::When::after, seconds};
 }
-/// A time [s] before the primitive's end, which is tau after its beginning.
 inline Switch before_end(double seconds) {
   return {Switch::When::before_end, seconds};
 }
 inline Switch at_end() {
   return before_end(0.0);
 }
+inline Switch at_phase(double phase) {
+  return {Switch::When::at_phase, phase};
+}
+inline Switch near_goal(double distance) {
+  return {Switch::When::near_goal, distance};
+}
+inline Switch after_cycles(double cycles) {
+  return {Switch::When::cycles, cycles};
+}
+inline Switch on_call() {
+  return {Switch::When::on_call, 0.0};
+}
+
+/// At which phase a primitive is entered. A discrete one always at its beginning.
+struct Entry {
+  enum class Where {
+    beginning,         ///< x = 1, φ = 0
+    phase,             ///< φ = phase
+    least_correction,  ///< the φ at which the state that is joined to needs the least correction
+  };
+
+  Where where = Where::beginning;
+  double phase = 0.0;  // [rad]
+};
+
+inline Entry from_phase(double phase) {
+  return {Entry::Where::phase, phase};
+}
+inline Entry least_correction() {
+  return {Entry::Where::least_correction, 0.0};
+}
 
 /// Primitives in their order and the switches between them, as a value.
 ///
 ///     Sequence task;
-///     task.then(reach).until(before_end(0.4)).then(pour);
+///     task.then(reach).until(before_end(0.4)).then(wipe).enter(least_correction()).until(after_cycles(3)).then(away);
 class Sequence {
  public:
   struct Step {
     Primitive primitive;
     Switch until;
+    Entry entry;
   };
 
   /// Holds the start position for a time [s] ≥ 0 before the first primitive begins.
   /// @throws Error  negative or not finite
   Sequence& start_after(double seconds);
-  /// Appends a primitive; it runs until its end unless `until` says otherwise.
+  /// Appends a primitive; unless `until` says otherwise a discrete one runs until its end, a rhythmic one for
+  /// one cycle.
   /// @throws Error  the primitive is not valid, or its coordinates differ from those before it
   Sequence& then(Primitive primitive);
   /// Sets when the primitive appended last hands over.
-  /// @throws Error  nothing appended yet, or the switch would be due before the primitive begins
+  /// @throws Error  nothing appended yet, or the switch can never be due, or not after the beginning
   Sequence& until(Switch when);
+  /// Sets at which phase the rhythmic primitive appended last is entered.
+  /// @throws Error  nothing appended yet, the primitive is discrete, or the phase is not finite
+  Sequence& enter(Entry entry);
 
   double start_delay() const { return start_delay_; }  // [s]
   const std::vector<Step>& steps() const { return steps_; }
   /// Coordinate names, those of the first primitive.
   /// @throws Error  the sequence is empty
   const std::vector<std::string>& coordinates() const;
-  /// Time [s] from the beginning until the last switch is due.
+  /// Time [s] until the last switch is due; infinite where that depends on the motion.
   double duration() const;
 
  private:
+  Step& last(const char* caller);
+
   std::vector<Step> steps_;
   double start_delay_ = 0.0;
 };
+
+/// Time [s] from a primitive's beginning at a phase until its switch is due; infinite where that depends on the motion.
+double due(const Primitive& primitive, const Switch& until, double entry_phase);
 
 }  // namespace seam

@@ -6,7 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
 #include <yaml-cpp/yaml.h>
+
+#include <seam/error.hpp>
 
 namespace seam {
 
@@ -15,9 +18,12 @@ namespace seam {
 class YamlEntry {
  public:
   /// The root of a file.
-  /// @throws Error  cannot be read, or is not YAML (names the line)
+  /// @throws Error  cannot be read, is not YAML (names the line), or goes on behind its first document
   static YamlEntry read(const std::string& path);
 
+  /// Refuses a file whose key `format` is not `<name> <version>`; to be asked before all else, so
+  /// that a file of a newer format is refused for that and not for its first new key.
+  const YamlEntry& require_format(const std::string& name, int version) const;
   /// Refuses every key of this map but these, and whatever is not a map.
   const YamlEntry& only(std::initializer_list<const char*> keys) const;
   /// The entry under a key. @throws Error  there is none
@@ -27,22 +33,40 @@ class YamlEntry {
   std::vector<YamlEntry> items() const;
   std::vector<std::pair<std::string, YamlEntry>> entries() const;
 
+  bool is_text() const { return node_.IsScalar(); }
   std::string text() const;
+  /// One of these texts. @return  its index
+  std::size_t choice(std::initializer_list<const char*> texts) const;
   double number() const;        // finite
   double positive() const;      // finite and > 0
   double not_negative() const;  // finite and ≥ 0
   int count(int least) const;   // whole and ≥ least
+  /// A list of finite numbers. @throws Error  names the line of the first that is not
+  Eigen::VectorXd numbers() const;
+  /// As many as this. @param per  what there must be one of them for, e.g. `coordinate`
+  Eigen::VectorXd numbers(Eigen::Index size, const char* per) const;
   /// A path, relative to the file's folder unless absolute.
   std::string path() const;
 
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  YamlEntry(YAML::Node node, std::string file, std::string key);
+  YamlEntry(YAML::Node node, std::string file, std::string key, int line);
 
   YAML::Node node_;
   std::string file_;
   std::string key_;
+  int line_;  // of the key, from 0
 };
+
+/// Does what an entry asks for; what the library refuses of it is refused at the entry's place.
+template <typename Action>
+auto at_key(const YamlEntry& entry, Action action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    entry.fail(error.what());
+  }
+}
 
 }  // namespace seam

@@ -1,0 +1,130 @@
+// Cost of a sequencer step, 7 coordinates × 10 kernels at 1 ms, beside a bare hand-written loop of the same
+// arithmetic: two evaluations of ten kernels, two forcings, one exact step of the third-order system.
+
+#include <array>
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+
+#include <seam/seam.hpp>
+
+namespace {
+
+constexpr int D = 7;
+constexpr int M = 10;
+constexpr double dt = 1e-3;
+
+seam::Primitive primitive() {
+  seam::Primitive primitive;
+  for (int d = 0; d < D; ++d) primitive.coordinates.push_back("q" + std::to_string(d));
+  primitive.kernels = seam::Kernels::even_in_time(M, 0.75, primitive.alpha);
+  primitive.weights = 100.0 * Eigen::MatrixXd::Random(M, D);
+  primitive.goal.setOnes(D);
+  primitive.start_position.setZero(D);
+  primitive.start_velocity = primitive.start_acceleration = primitive.start_position;
+  return primitive;
+}
+
+/// The same mathematics in plain loops over arrays of fixed size.
+class BareLoop {
+ public:
+  explicit BareLoop(const seam::Primitive& from)
+      : propagator_(from.gains, from.tau, dt), tau_(from.tau), gains_(from.gains) {
+    for (int j = 0; j < M; ++j) {
+      centers_[j] = from.kernels.centers(j);
+      precision_[j] = 0.5 / (from.kernels.widths(j) * from.kernels.widths(j));
+      for (int d = 0; d < D; ++d) weights_[j][d] = from.weights(j, d);
+    }
+    for (int d = 0; d < D; ++d) goal_[d] = from.goal(d);
+    restart();
+  }
+
+  void restart() {
+    elapsed_ = 0.0;
+    for (int d = 0; d < D; ++d) offset_[d] = -goal_[d], velocity_[d] = 0.0, lag_[d] = 0.1;
+    forcing(1.0, start_);
+  }
+
+  void step() {
+    elapsed_ += dt;
+    forcing(std::exp(-2.0 * (elapsed_ - 0.5 * dt) / tau_), middle_);
+    forcing(std::exp(-2.0 * elapsed_ / tau_), end_);
+    const auto& P = propagator_.Phi;
+    const auto& G = propagator_.Gamma;
+    for (int d = 0; d < D; ++d) {
+      const double y = P(0, 0) * offset_[d] + P(0, 1) * velocity_[d] + P(0, 2) * lag_[d] +
+                       G(0, 0) * start_[d] + G(0, 1) * middle_[d] + G(0, 2) * end_[d];
+      const double v = P(1, 0) * offset_[d] + P(1, 1) * velocity_[d] + P(1, 2) * lag_[d] +
+                       G(1, 0) * start_[d] + G(1, 1) * middle_[d] + G(1, 2) * end_[d];
+      lag_[d] *= P(2, 2);
+      offset_[d] = y;
+      velocity_[d] = v;
+      start_[d] = end_[d];
+      position[d] = goal_[d] + y;
+      acceleration[d] = (gains_.K * (lag_[d] - y) - gains_.D * tau_ * v + end_[d]) / (tau_ * tau_);
+    }
+  }
+
+  std::array<double, D> position{}, acceleration{};
+
+ private:
+  void forcing(double x, std::array<double, D>& f) const {
+    std::array<double, M> psi{};
+    double sum = 0.0;
+    for (int j = 0; j < M; ++j) {
+      psi[j] = std::exp(-(x - centers_[j]) * (x - centers_[j]) * precision_[j]);
+      sum += psi[j];
+    }
+    f.fill(0.0);
+    for (int j = 0; j < M; ++j)
+      for (int d = 0; d < D; ++d) f[d] += psi[j] * weights_[j][d];
+    for (int d = 0; d < D; ++d) f[d] *= x / sum;
+  }
+
+  seam::Propagator propagator_;
+  double tau_;
+  seam::Gains gains_;
+  std::array<double, M> centers_{}, precision_{};
+  std::array<std::array<double, D>, M> weights_{};
+  std::array<double, D> goal_{}, offset_{}, velocity_{}, lag_{}, start_{}, middle_{}, end_{};
+  double elapsed_ = 0.0;
+};
+
+constexpr int ticks = 1000;
+
+void sequencer_step(benchmark::State& state) {
+  const seam::Primitive shown = primitive();
+  seam::Sequence sequence;
+  sequence.then(shown).until(seam::after(1e9));
+  const auto start = seam::Sample::at_rest(shown.start_position);
+  seam::Sequencer sequencer(sequence, seam::Join::dmp3, start);
+  for (auto _ : state) {
+    state.PauseTiming();
+    sequencer = seam::Sequencer(sequence, seam::Join::dmp3, start);
+    state.ResumeTiming();
+    for (int k = 0; k < ticks; ++k) {
+      sequencer.step(dt);
+      benchmark::DoNotOptimize(sequencer.sample().position.data());
+      benchmark::ClobberMemory();
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * ticks);
+}
+
+void bare_loop(benchmark::State& state) {
+  BareLoop loop(primitive());
+  for (auto _ : state) {
+    loop.restart();
+    for (int k = 0; k < ticks; ++k) {
+      loop.step();
+      benchmark::DoNotOptimize(loop.position.data());
+      benchmark::ClobberMemory();
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * ticks);
+}
+
+}  // namespace
+
+BENCHMARK(sequencer_step)->Repetitions(15)->Unit(benchmark::kMicrosecond);
+BENCHMARK(bare_loop)->Repetitions(15)->Unit(benchmark::kMicrosecond);

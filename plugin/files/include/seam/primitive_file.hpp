@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include <seam/primitive.hpp>
+
+namespace seam {
+
+/// Reads a primitive from a YAML file of the format `seam-primitive 1`. What write_primitive has
+/// written comes back bit for bit. All keys must be there, and no others:
+///
+///     format: seam-primitive 1
+///     kind: discrete                     # or rhythmic
+///     coordinates: ["x", "y"]            # D names
+///     tau: 1.2                           # [s] duration, or period/2π
+///     alpha: 2                           # decay of the discrete phase
+///     gains: {K: 200, D: 28.28, H: 14.14}
+///     goal: [0.3, 0.1]                   # D [rad or m]
+///     start: {position: [0, 0], velocity: [0, 0], acceleration: [0, 0]}   # D each, SI units
+///     kernels: {centers: [1, 0.5, 0.1], widths: [0.4, 0.3, 0.3]}          # M each
+///     weights:                           # M rows, one number per coordinate
+///       - [1.5, 20]
+///       - [-30, 4]
+///       - [7, -1]
+/// @throws Error  names file, line and key: unreadable, not YAML, a newer format, a missing, extra
+///                or repeated key, a value that is not a finite number or out of range, a wrong
+///                size
+Primitive read_primitive(const std::string& path);
+
+/// Writes a primitive with 17 significant digits. The file appears whole or not at all.
+/// @throws Error  the primitive is not valid, a coordinate has no name, or the file cannot be
+///                written
+void write_primitive(const std::string& path, const Primitive& primitive);
+
+}  // namespace seam

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <seam/join.hpp>
+#include <seam/sequence.hpp>
+
+namespace seam {
+
+/// A sequence and what a file says beside it.
+struct SequenceFile {
+  Sequence sequence;
+  std::vector<std::string> primitives;          // names, one per step
+  std::optional<Sample> start;                  // the state to start from, where it is given
+  std::optional<Eigen::Quaterniond> reference;  // q₀ of the coordinates rx ry rz
+
+  /// The state to start from: `start`, or at rest where the first primitive's demonstration began.
+  Sample start_state() const;
+};
+
+/// Reads a sequence from a YAML file of the format `seam-sequence 1`. Primitives are named once and
+/// played as often as they are wanted; paths are relative to the file. Keys that may be left out
+/// are marked so.
+///
+///     format: seam-sequence 1
+///     start:                            # optional, and so is each part and coordinate
+///       position: {x: 0.1}              # else where the first primitive began
+///       velocity: {x: 0}                # else 0; likewise acceleration, jerk
+///     start_after: 0.25                 # optional [s] at rest before the first primitive
+///     reference: [0, 0, 0, 1]           # optional, unit quaternion x y z w from which the columns
+///                                       # qx qy qz qw of demonstrations are turned; else the
+///                                       # first sample of the first demonstration that has them
+///     primitives:
+///       reach: {file: reach.yaml}       # a primitive file
+///       wipe: {demonstration: wipe.csv, kind: rhythmic, period: 1.5}  # learned, see below
+///       away: {kind: discrete, …}       # a primitive file's own keys
+///     steps:
+///       - {play: reach, until: {before_end: 0.4}}   # or after [s], at_phase, cycles,
+///                                                   # near_goal [rad or m], on_call
+///       - {play: wipe, enter: least_correction, until: on_call}  # or beginning, {phase: 1.2}
+///       - {play: away}                  # without until: to its end, or for one cycle
+///
+/// A demonstration is learned with LearnSettings and DerivativeSettings, all optional: kind, period
+/// [s], kernels, width, precision [m or rad], method (least_squares, recursive, locally_weighted),
+/// alpha, gains: {K, D, H} (D and H optional: critical), cutoff [Hz].
+/// @throws Error  names file, line and key: unreadable, not YAML, a newer format, a missing, extra
+///                or repeated key, a value that is not a finite number or out of range, a name that
+///                is not among the primitives, and whatever Sequence, learn or a file that is named
+///                refuses
+SequenceFile read_sequence(const std::string& path);
+
+/// Writes a sequence with all its primitives and 17 significant digits: it comes back bit for bit.
+/// The file appears whole or not at all.
+/// @throws Error  it has no steps, a name is missing, or stands for two different primitives; the
+///                start has other dimensions or is not finite; the file cannot be written
+void write_sequence(const std::string& path, const SequenceFile& file);
+
+}  // namespace seam

@@ -1,0 +1,60 @@
+#include "learn_entry.hpp"
+
+#include <seam/learn.hpp>
+#include <seam/orientation.hpp>
+
+namespace seam {
+
+namespace {
+
+Gains read_gains(const YamlEntry& entry) {
+  entry.only({"K", "D", "H"});
+  Gains gains = Gains::critical(entry.at("K").positive());
+  if (const auto D = entry.find("D")) gains.D = D->positive();
+  if (const auto H = entry.find("H")) gains.H = H->positive();
+  return gains;
+}
+
+LearnMethod read_method(const YamlEntry& entry) {
+  constexpr LearnMethod methods[] = {LearnMethod::least_squares, LearnMethod::recursive,
+                                     LearnMethod::locally_weighted};
+  return methods[entry.choice({"least_squares", "recursive", "locally_weighted"})];
+}
+
+LearnSettings read_settings(const YamlEntry& entry) {
+  LearnSettings settings;
+  if (const auto kind = entry.find("kind"))
+    settings.kind = kind->choice({"discrete", "rhythmic"}) == 0 ? Kind::discrete : Kind::rhythmic;
+  if (const auto period = entry.find("period")) settings.period = period->positive();
+  if (const auto method = entry.find("method")) settings.method = read_method(*method);
+  if (const auto precision = entry.find("precision")) settings.precision = precision->positive();
+  if (const auto kernels = entry.find("kernels")) settings.kernels = kernels->count(2);
+  if (const auto width = entry.find("width")) settings.width = width->positive();
+  if (const auto alpha = entry.find("alpha")) settings.alpha = alpha->positive();
+  if (const auto gains = entry.find("gains")) settings.gains = read_gains(*gains);
+  return settings;
+}
+
+Demonstration read_demonstration(const std::string& path, const DerivativeSettings& derivatives,
+                                 std::optional<Eigen::Quaterniond>& reference) {
+  Demonstration demo = Demonstration::read(path, derivatives);
+  if (!has_orientation(demo)) return demo;
+  if (!reference) reference = first_orientation(demo);
+  return with_rotation_vector(demo, *reference, derivatives);
+}
+
+}  // namespace
+
+Primitive learn_primitive(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& reference) {
+  entry.only({"demonstration", "kind", "period", "kernels", "width", "precision", "method", "alpha",
+              "gains", "cutoff"});
+  const LearnSettings settings = read_settings(entry);
+  DerivativeSettings derivatives;
+  if (const auto cutoff = entry.find("cutoff")) derivatives.cutoff = cutoff->positive();
+  const YamlEntry file = entry.at("demonstration");
+  return at_key(file, [&] {
+    return learn(read_demonstration(file.path(), derivatives, reference), settings);
+  });
+}
+
+}  // namespace seam

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "learn_entry.hpp"
+#include "primitive_entry.hpp"
+#include "sequence_entry.hpp"
+#include "yaml_text.hpp"
+#include <seam/primitive_file.hpp>
+#include <seam/sequence_file.hpp>
+#include <seam/table.hpp>
+
+namespace seam {
+
+namespace {
+
+constexpr const char* format_name = "seam-sequence";
+constexpr int format_version = 1;
+
+struct Part {
+  const char* name;
+  Eigen::VectorXd Sample::*values;
+};
+
+constexpr std::array<Part, 4> parts{{{"position", &Sample::position},
+                                     {"velocity", &Sample::velocity},
+                                     {"acceleration", &Sample::acceleration},
+                                     {"jerk", &Sample::jerk}}};
+
+struct SwitchKey {
+  const char* name;
+  Switch::When when;
+};
+
+constexpr std::array<SwitchKey, 5> switch_keys{{{"after", Switch::When::after},
+                                                {"before_end", Switch::When::before_end},
+                                                {"at_phase", Switch::When::at_phase},
+                                                {"near_goal", Switch::When::near_goal},
+                                                {"cycles", Switch::When::cycles}}};
+
+Switch read_switch(const YamlEntry& entry) {
+  if (entry.is_text()) {
+    entry.choice({"on_call"});
+    return on_call();
+  }
+  entry.only({"after", "before_end", "at_phase", "near_goal", "cycles"});
+  if (entry.entries().size() > 1)
+    entry.fail("must have one of after, before_end, at_phase, near_goal, cycles, not several");
+  Switch until;
+  for (const SwitchKey& key : switch_keys)
+    if (const auto value = entry.find(key.name)) until = {key.when, value->number()};
+  return until;
+}
+
+Entry read_entry(const YamlEntry& entry) {
+  if (!entry.is_text()) return from_phase(entry.only({"phase"}).at("phase").number());
+  return entry.choice({"beginning", "least_correction"}) == 0 ? Entry{} : least_correction();
+}
+
+using Primitives = std::map<std::string, Primitive>;
+using Check = std::function<void(const Primitive&)>;
+
+Primitive read_named(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& reference) {
+  if (const auto file = entry.find("file")) {
+    entry.only({"file"});
+    return at_key(*file, [&] { return read_primitive(file->path()); });
+  }
+  if (entry.find("demonstration")) return learn_primitive(entry, reference);
+  if (entry.find("weights")) return read_primitive(entry);
+  entry.fail("needs one of the keys file, demonstration, weights");
+}
+
+Primitives read_primitives(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& reference) {
+  Primitives primitives;
+  for (const auto& [name, primitive] : entry.entries())
+    primitives.emplace(name, read_named(primitive, reference));
+  return primitives;
+}
+
+void read_step(const YamlEntry& step, const Primitives& primitives, const Check& check,
+               SequenceFile& file) {
+  step.only({"play", "enter", "until"});
+  const YamlEntry play = step.at("play");
+  const auto primitive = primitives.find(play.text());
+  if (primitive == primitives.end())
+    play.fail("\"" + play.text() + "\", is not among the primitives");
+  file.primitives.push_back(play.text());
+  at_key(play, [&] {
+    if (check) check(primitive->second);
+    file.sequence.then(primitive->second);
+  });
+  if (const auto until = step.find("until")) {
+    const Switch when = read_switch(*until);
+    at_key(*until, [&] { file.sequence.until(when); });
+  }
+  if (const auto enter = step.find("enter")) {
+    const Entry where = read_entry(*enter);
+    at_key(*enter, [&] { file.sequence.enter(where); });
+  }
+}
+
+Sample read_start(const YamlEntry& entry, const Primitive& first) {
+  entry.only({"position", "velocity", "acceleration", "jerk"});
+  Sample start = Sample::at_rest(first.start_position);
+  const auto& names = first.coordinates;
+  for (const Part& part : parts) {
+    const auto given = entry.find(part.name);
+    if (!given) continue;
+    for (const auto& [name, value] : given->entries()) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) value.fail("is not among the primitives' coordinates");
+      (start.*part.values)(found - names.begin()) = value.number();
+    }
+  }
+  return start;
+}
+
+// Kept to the bit where it is a unit quaternion already.
+Eigen::Quaterniond read_reference(const YamlEntry& entry) {
+  const Eigen::VectorXd xyzw = entry.numbers(4, "part x y z w");
+  const Eigen::Quaterniond q(Eigen::Vector4d{xyzw});
+  if (!(std::abs(q.norm() - 1.0) <= 1e-3))
+    entry.fail("quaternion of norm " + std::to_string(q.norm()) + ", must be 1 within 0.001");
+  return std::abs(q.norm() - 1.0) < 1e-12 ? q : q.normalized();
+}
+
+std::string text_of(const Switch& until) {
+  for (const SwitchKey& key : switch_keys)
+    if (until.when == key.when)
+      return "{" + std::string(key.name) + ": " + yaml_number(until.value) + "}";
+  return "on_call";
+}
+
+std::string text_of(const Entry& entry) {
+  if (entry.where == Entry::Where::phase) return "{phase: " + yaml_number(entry.phase) + "}";
+  return entry.where == Entry::Where::beginning ? "beginning" : "least_correction";
+}
+
+std::string start_text(const Sample& start, const std::vector<std::string>& names) {
+  std::string text = "start:\n";
+  for (const Part& part : parts) {
+    const Eigen::VectorXd& values = start.*part.values;
+    if (static_cast<std::size_t>(values.size()) != names.size() || !values.allFinite())
+      throw Error("sequence", std::string("the start's ") + part.name + " must be " +
+                                  std::to_string(names.size()) + " finite numbers");
+    std::string list;
+    for (std::size_t d = 0; d < names.size(); ++d)
+      list += (d ? ", " : "") + yaml_text(names[d]) + ": " +
+              yaml_number(values(static_cast<Eigen::Index>(d)));
+    text += "  " + std::string(part.name) + ": {" + list + "}\n";
+  }
+  return text;
+}
+
+std::string primitives_text(const SequenceFile& file) {
+  const auto& steps = file.sequence.steps();
+  if (file.primitives.size() != steps.size())
+    throw Error("sequence", std::to_string(file.primitives.size()) + " names for " +
+                                std::to_string(steps.size()) + " primitives");
+  std::map<std::string, std::string> written;
+  std::string text = "primitives:\n";
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::string& name = file.primitives[i];
+    if (name.empty()) throw Error("sequence", "a primitive has no name");
+    const std::string entries = primitive_entries(steps[i].primitive, "    ");
+    const auto [known, is_new] = written.emplace(name, entries);
+    if (known->second != entries)
+      throw Error("sequence", "\"" + name + "\" is the name of two different primitives");
+    if (is_new) text += "  " + yaml_text(name) + ":\n" + entries;
+  }
+  return text;
+}
+
+std::string steps_text(const SequenceFile& file) {
+  std::string text = "steps:\n";
+  for (std::size_t i = 0; i < file.primitives.size(); ++i) {
+    const Sequence::Step& step = file.sequence.steps()[i];
+    text += "  - {play: " + yaml_text(file.primitives[i]);
+    if (step.primitive.kind == Kind::rhythmic) text += ", enter: " + text_of(step.entry);
+    text += ", until: " + text_of(step.until) + "}\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Sample SequenceFile::start_state() const {
+  return start ? *start : Sample::at_rest(sequence.steps().at(0).primitive.start_position);
+}
+
+SequenceFile read_sequence(const YamlEntry& entry, const Check& check) {
+  if (entry.find("format")) entry.require_format(format_name, format_version);
+  entry.only({"format", "start", "start_after", "reference", "primitives", "steps"});
+  SequenceFile file;
+  if (const auto reference = entry.find("reference")) file.reference = read_reference(*reference);
+  if (const auto delay = entry.find("start_after"))
+    file.sequence.start_after(delay->not_negative());
+  const Primitives primitives = read_primitives(entry.at("primitives"), file.reference);
+  for (const YamlEntry& step : entry.at("steps").items()) read_step(step, primitives, check, file);
+  if (const auto start = entry.find("start"))
+    file.start = read_start(*start, file.sequence.steps().front().primitive);
+  return file;
+}
+
+SequenceFile read_sequence(const std::string& path) {
+  const YamlEntry root = YamlEntry::read(path);
+  return read_sequence(root.require_format(format_name, format_version), nullptr);
+}
+
+void write_sequence(const std::string& path, const SequenceFile& file) {
+  std::string text = std::string("format: ") + format_name + " " + std::to_string(format_version);
+  text += "\n";
+  const auto& names = file.sequence.coordinates();
+  if (file.start) text += start_text(*file.start, names);
+  text += "start_after: " + yaml_number(file.sequence.start_delay()) + "  # [s]\n";
+  if (file.reference) text += "reference: " + yaml_list(Eigen::VectorXd(file.reference->coeffs()));
+  if (file.reference) text += "  # x y z w\n";
+  write_whole(path, text + primitives_text(file) + steps_text(file));
+}
+
+}  // namespace seam

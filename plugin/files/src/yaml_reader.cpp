@@ -1,0 +1,209 @@
+#include "yaml_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <yaml-cpp/eventhandler.h>
+
+namespace seam {
+
+namespace {
+
+// The version behind `<name> `, or 0.
+int version_of(const std::string& format, const std::string& name) {
+  int version = 0;
+  if (format.rfind(name + " ", 0) == 0) {
+    const char* const end = format.data() + format.size();
+    const auto [last, status] = std::from_chars(format.data() + name.size() + 1, end, version);
+    if (status != std::errc{} || last != end) return 0;
+  }
+  return version;
+}
+
+std::string listed(std::initializer_list<const char*> texts) {
+  std::string list;
+  for (const char* text : texts) list += (list.empty() ? "" : ", ") + std::string(text);
+  return list;
+}
+
+// Keys and values may hold line breaks, messages may not.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return text;
+}
+
+// Hears where documents begin, and nothing else.
+class Beginnings : public YAML::EventHandler {
+ public:
+  int last_line = 0;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { last_line = mark.line; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// YAML::Load drops what follows the first document (a stray bracket ends it, too), and YAML::LoadAll
+// may never return from it.
+YAML::Node only_document(const std::string& path, const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Beginnings beginnings;
+  if (parser.HandleNextDocument(beginnings) && parser.HandleNextDocument(beginnings))
+    throw Error(path + ":" + std::to_string(beginnings.last_line + 1),
+                "not part of the document, which ends before this");
+  return YAML::Load(text);
+}
+
+}  // namespace
+
+YamlEntry::YamlEntry(YAML::Node node, std::string file, std::string key, int line)
+    : node_(std::move(node)), file_(std::move(file)), key_(std::move(key)), line_(line) {}
+
+YamlEntry YamlEntry::read(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw Error(path, "is a folder, must be a YAML file");
+  std::ifstream file(path);
+  if (!file) throw Error(path, "cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  try {
+    const YAML::Node root = only_document(path, text);
+    return {root, path, "", root.Mark().line};
+  } catch (const YAML::Exception& error) {
+    throw Error(path + ":" + std::to_string(error.mark.line + 1),
+                one_line("not YAML: " + error.msg));
+  }
+}
+
+void YamlEntry::fail(const std::string& what) const {
+  throw Error(line_ < 0 ? file_ : file_ + ":" + std::to_string(line_ + 1),
+              one_line((key_.empty() ? "" : "key \"" + key_ + "\": ") + what));
+}
+
+const YamlEntry& YamlEntry::require_format(const std::string& name, int version) const {
+  const YamlEntry entry = at("format");
+  const int found = version_of(entry.text(), name);
+  if (found == version) return *this;
+  entry.fail("\"" + entry.text() + "\", must be " + name + " " + std::to_string(version) +
+             (found > version ? " (a newer seam has written this file)" : ""));
+}
+
+const YamlEntry& YamlEntry::only(std::initializer_list<const char*> keys) const {
+  if (!node_.IsMap()) fail("must be a map with keys " + listed(keys));
+  for (const auto& [key, entry] : entries())
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      entry.fail("not known here, must be one of " + listed(keys));
+  return *this;
+}
+
+std::optional<YamlEntry> YamlEntry::find(const std::string& key) const {
+  if (!node_.IsMap()) fail("must be a map");
+  for (const auto& child : node_)
+    if (child.first.Scalar() == key)
+      return YamlEntry(child.second, file_, key, child.first.Mark().line);
+  return std::nullopt;
+}
+
+YamlEntry YamlEntry::at(const std::string& key) const {
+  const auto entry = find(key);
+  if (!entry) fail("needs the key \"" + key + "\"");
+  return *entry;
+}
+
+std::vector<YamlEntry> YamlEntry::items() const {
+  if (!node_.IsSequence() || node_.size() == 0) fail("must be a list with at least one entry");
+  std::vector<YamlEntry> list;
+  for (const auto& child : node_) list.push_back({child, file_, key_, child.Mark().line});
+  return list;
+}
+
+std::vector<std::pair<std::string, YamlEntry>> YamlEntry::entries() const {
+  if (!node_.IsMap() || node_.size() == 0) fail("must be a map with at least one key");
+  std::vector<std::pair<std::string, YamlEntry>> map;
+  for (const auto& child : node_) {
+    const std::string& key = child.first.Scalar();
+    YamlEntry entry(child.second, file_, key, child.first.Mark().line);
+    for (const auto& other : map)
+      if (other.first == key) entry.fail("appears twice");
+    map.emplace_back(key, std::move(entry));
+  }
+  return map;
+}
+
+std::string YamlEntry::text() const {
+  if (!node_.IsScalar() || node_.Scalar().empty()) fail("must be a text");
+  return node_.Scalar();
+}
+
+std::size_t YamlEntry::choice(std::initializer_list<const char*> texts) const {
+  const auto found = std::find(texts.begin(), texts.end(), text());
+  if (found == texts.end()) fail("\"" + text() + "\", must be one of " + listed(texts));
+  return static_cast<std::size_t>(found - texts.begin());
+}
+
+double YamlEntry::number() const {
+  if (!node_.IsScalar()) fail("must be a finite number");
+  const std::string& text = node_.Scalar();
+  const char* const begin = text.data() + (text.rfind('+', 0) == 0 ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  double value = 0.0;
+  const auto [last, status] = std::from_chars(begin, end, value);
+  if (status != std::errc{} || last != end || !std::isfinite(value))
+    fail("\"" + text + "\", must be a finite number");
+  return value;
+}
+
+double YamlEntry::positive() const {
+  const double value = number();
+  if (!(value > 0.0)) fail(node_.Scalar() + ", must be > 0");
+  return value;
+}
+
+double YamlEntry::not_negative() const {
+  const double value = number();
+  if (!(value >= 0.0)) fail(node_.Scalar() + ", must be >= 0");
+  return value;
+}
+
+int YamlEntry::count(int least) const {
+  int value = 0;
+  if (!node_.IsScalar() || !YAML::convert<int>::decode(node_, value) || value < least)
+    fail((node_.IsScalar() ? "\"" + node_.Scalar() + "\", " : "") +
+         "must be a whole number >= " + std::to_string(least));
+  return value;
+}
+
+Eigen::VectorXd YamlEntry::numbers() const {
+  const std::vector<YamlEntry> list = items();
+  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
+  Eigen::Index i = 0;
+  for (const YamlEntry& item : list) values(i++) = item.number();
+  return values;
+}
+
+Eigen::VectorXd YamlEntry::numbers(Eigen::Index size, const char* per) const {
+  const Eigen::VectorXd values = numbers();
+  if (values.size() != size)
+    fail(std::to_string(values.size()) + " numbers, must be " + std::to_string(size) +
+         " (one per " + per + ")");
+  return values;
+}
+
+std::string YamlEntry::path() const {
+  return (std::filesystem::path(file_).parent_path() / text()).lexically_normal().string();
+}
+
+}  // namespace seam

@@ -1,0 +1,533 @@
+#include <cfloat>
+#include <cstring>
+
+#include <gmock/gmock.h>
+
+#include "tests/support.hpp"
+#include <seam/orientation.hpp>
+#include <seam/primitive_file.hpp>
+#include <seam/sequence_file.hpp>
+
+namespace seam {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr unsigned seed = 51;
+
+bool same_bits(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool same_bits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+bool same_bits(const Gains& a, const Gains& b) {
+  return same_bits(a.K, b.K) && same_bits(a.D, b.D) && same_bits(a.H, b.H);
+}
+
+bool same_bits(const Primitive& a, const Primitive& b) {
+  return a.kind == b.kind && a.coordinates == b.coordinates && same_bits(a.gains, b.gains) &&
+         same_bits(a.alpha, b.alpha) && same_bits(a.kernels.centers, b.kernels.centers) &&
+         same_bits(a.kernels.widths, b.kernels.widths) && same_bits(a.weights, b.weights) &&
+         same_bits(a.goal, b.goal) && same_bits(a.tau, b.tau) &&
+         same_bits(a.start_position, b.start_position) &&
+         same_bits(a.start_velocity, b.start_velocity) &&
+         same_bits(a.start_acceleration, b.start_acceleration);
+}
+
+bool same_bits(const Sample& a, const Sample& b) {
+  return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
+         same_bits(a.acceleration, b.acceleration) && same_bits(a.jerk, b.jerk);
+}
+
+// Any finite double: every exponent alike, denormals, both zeros and the extremes among them.
+double any_number(std::mt19937_64& random) {
+  constexpr double special[] = {0.0, -0.0, DBL_MAX, -DBL_MAX, DBL_MIN, 5e-324, 2.2e-310, 1e22, 0.1};
+  if (random() % 4 == 0) return special[random() % std::size(special)];
+  for (;;) {
+    const std::uint64_t bits = random();
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (std::isfinite(value)) return value;
+  }
+}
+
+double any_positive(std::mt19937_64& random) {
+  const double value = std::abs(any_number(random));
+  return value > 0.0 ? value : 5e-324;
+}
+
+Primitive any_primitive(std::mt19937_64& random) {
+  const auto D = static_cast<Eigen::Index>(1 + random() % 7);
+  const auto M = static_cast<Eigen::Index>(2 + random() % 20);
+  const auto any = [&](Eigen::Index rows, Eigen::Index cols) {
+    return Eigen::MatrixXd(
+        Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return any_number(random); }));
+  };
+  Primitive primitive;
+  primitive.kind = random() % 2 ? Kind::rhythmic : Kind::discrete;
+  const char* const odd[] = {"y",        "no", "12",  "left arm", "a: \"b\" # c\\",
+                             "\xCF\x86", "-",  "\t\n"};
+  for (Eigen::Index d = 0; d < D; ++d)
+    primitive.coordinates.push_back(odd[random() % std::size(odd)] + std::to_string(d));
+  primitive.gains = {any_positive(random), any_positive(random), any_positive(random)};
+  primitive.alpha = any_positive(random);
+  primitive.tau = any_positive(random);
+  primitive.kernels.centers = any(M, 1);
+  primitive.kernels.widths = Eigen::VectorXd::NullaryExpr(M, [&] { return any_positive(random); });
+  primitive.weights = any(M, D);
+  for (Eigen::VectorXd* vector : {&primitive.goal, &primitive.start_position,
+                                  &primitive.start_velocity, &primitive.start_acceleration})
+    *vector = any(D, 1);
+  return primitive;
+}
+
+TEST(PrimitiveFile, ComesBackBitForBit) {
+  const TempFolder folder;
+  const std::string path = folder.path("any.yaml");
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < 300; ++i) {
+    const Primitive primitive = any_primitive(random);
+    write_primitive(path, primitive);
+    EXPECT_TRUE(same_bits(read_primitive(path), primitive)) << "seed " << seed << ", case " << i;
+  }
+}
+
+TEST(PrimitiveFile, IsTheSameTextWhenWrittenAgain) {
+  const TempFolder folder;
+  std::mt19937_64 random(seed + 1);
+  write_primitive(folder.path("a.yaml"), test::random_primitive(random, 7));
+  write_primitive(folder.path("b.yaml"), read_primitive(folder.path("a.yaml")));
+  EXPECT_EQ(test::read_file(folder.path("a.yaml")), test::read_file(folder.path("b.yaml")));
+  EXPECT_THAT(test::read_file(folder.path("a.yaml")), StartsWith("format: seam-primitive 1\n"));
+}
+
+TEST(PrimitiveFile, AppearsWholeOrNotAtAll) {
+  const TempFolder folder;
+  std::mt19937_64 random(seed + 2);
+  Primitive primitive = test::random_primitive(random, 2);
+  write_primitive(folder.path("kept.yaml"), primitive);
+  const std::string kept = test::read_file(folder.path("kept.yaml"));
+  primitive.weights(0, 0) = NAN;
+  EXPECT_THAT(test::refusal([&] { write_primitive(folder.path("kept.yaml"), primitive); }),
+              HasSubstr("weights have an entry that is not finite"));
+  EXPECT_EQ(test::read_file(folder.path("kept.yaml")), kept);
+  EXPECT_THAT(
+      test::refusal([&] { write_primitive("/proc/none.yaml", test::random_primitive(random, 2)); }),
+      StartsWith("/proc/none.yaml: cannot be written"));
+  primitive = test::random_primitive(random, 1);
+  primitive.coordinates[0].clear();
+  EXPECT_EQ(test::refusal([&] { write_primitive(folder.path("new.yaml"), primitive); }),
+            "primitive: a coordinate has no name");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("new.yaml")));
+}
+
+const std::string good_primitive = R"(format: seam-primitive 1
+kind: discrete
+coordinates: ["x", "y"]
+tau: 1.2
+alpha: 2
+gains: {K: 200, D: 28, H: 14}
+goal: [0.3, +1e-1]
+start:
+  position: [0, 0]
+  velocity: [0, 0]
+  acceleration: [0, 0]
+kernels:
+  centers: [1, 0.5, 0.1]
+  widths: [0.4, 0.3, 0.3]
+weights:
+  - [1.5, 20]
+  - [-30, 4]
+  - [7, -1]
+)";
+
+TEST(PrimitiveFile, IsReadAsItIsDocumented) {
+  const TempFolder folder;
+  const Primitive primitive = read_primitive(folder.write("good.yaml", good_primitive));
+  EXPECT_EQ(primitive.kind, Kind::discrete);
+  EXPECT_EQ(primitive.coordinates, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(primitive.tau, 1.2);
+  EXPECT_EQ(primitive.gains.H, 14.0);
+  EXPECT_EQ(primitive.goal(1), 0.1);
+  EXPECT_EQ(primitive.kernels.centers(2), 0.1);
+  EXPECT_EQ(primitive.kernels.widths(0), 0.4);
+  EXPECT_EQ(primitive.weights(1, 0), -30.0);
+}
+
+struct BadFile {
+  const char* name;
+  const char* from;
+  const char* to;
+  const char* message;  // what the error says behind the file's name
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+class PrimitiveFileRefuses : public testing::TestWithParam<BadFile> {};
+
+TEST_P(PrimitiveFileRefuses, WithFileLineAndKey) {
+  const TempFolder folder;
+  const std::string path =
+      folder.write("bad.yaml", replaced(good_primitive, GetParam().from, GetParam().to));
+  EXPECT_THAT(test::refusal([&] { read_primitive(path); }),
+              StartsWith(path + std::string(GetParam().message)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , PrimitiveFileRefuses,
+    testing::Values(
+        BadFile{"NewerFormat", "primitive 1", "primitive 2",
+                ":1: key \"format\": \"seam-primitive 2\", must be seam-primitive 1 (a newer seam "
+                "has written this file)"},
+        BadFile{"NewerFormatBeforeItsNewKeys", "1\nkind", "10\ncolour: blue\nkind",
+                ":1: key \"format\": \"seam-primitive 10\""},
+        BadFile{"OtherFormat", "seam-primitive 1", "seam-scene 1",
+                ":1: key \"format\": \"seam-scene 1\", must be seam-primitive 1"},
+        BadFile{"FormatWithTail", "primitive 1", "primitive 1b",
+                ":1: key \"format\": \"seam-primitive 1b\", must be seam-primitive 1"},
+        BadFile{"FormatZero", "primitive 1", "primitive 0", ":1: key \"format\": "},
+        BadFile{"NoFormat", "format: seam-primitive 1\n", "", ":1: needs the key \"format\""},
+        BadFile{"FormatAList", "seam-primitive 1", "[1]", ":1: key \"format\": must be a text"},
+        BadFile{"NoKind", "kind: discrete\n", "", ":1: needs the key \"kind\""},
+        BadFile{"UnknownKind", "discrete", "dance",
+                ":2: key \"kind\": \"dance\", must be one of discrete, rhythmic"},
+        BadFile{"NoCoordinates", "[\"x\", \"y\"]", "[]",
+                ":3: key \"coordinates\": must be a list with at least one entry"},
+        BadFile{"OneCoordinate", "[\"x\", \"y\"]", "[x]",
+                ":7: key \"goal\": 2 numbers, must be 1 (one per coordinate)"},
+        BadFile{"RepeatedCoordinate", "\"y\"]", "\"x\"]", ":1: primitive: coordinate names repeat"},
+        BadFile{"NamelessCoordinate", "\"y\"]", "\"\"]", ":3: key \"coordinates\": must be a text"},
+        BadFile{"NoTau", "tau: 1.2\n", "", ":1: needs the key \"tau\""},
+        BadFile{"EmptyTau", "tau: 1.2", "tau:", ":4: key \"tau\": must be a finite number"},
+        BadFile{"NegativeTau", "1.2", "-1.2", ":4: key \"tau\": -1.2, must be > 0"},
+        BadFile{"InfiniteTau", "1.2", ".inf", ":4: key \"tau\": \".inf\", must be a finite number"},
+        BadFile{"HugeTau", "1.2", "1e999", ":4: key \"tau\": \"1e999\", must be a finite number"},
+        BadFile{"TauWithUnit", "1.2", "1.2 s", ":4: key \"tau\": \"1.2 s\", must be a finite"},
+        BadFile{"TwiceTau", "alpha: 2", "tau: 2", ":5: key \"tau\": appears twice"},
+        BadFile{"ZeroAlpha", "alpha: 2", "alpha: 0", ":5: key \"alpha\": 0, must be > 0"},
+        BadFile{"NoH", ", H: 14", "", ":6: key \"gains\": needs the key \"H\""},
+        BadFile{"UnknownGain", ", H: 14", ", H: 14, P: 1",
+                ":6: key \"P\": not known here, must be one of K, D, H"},
+        BadFile{"NegativeK", "K: 200", "K: -200", ":6: key \"K\": -200, must be > 0"},
+        BadFile{"GoalNotFinite", "0.3, +1e-1", "nan, 0.1",
+                ":7: key \"goal\": \"nan\", must be a finite number"},
+        BadFile{"LongGoal", "0.3, +1e-1", "0.3, 0.1, 0",
+                ":7: key \"goal\": 3 numbers, must be 2 (one per coordinate)"},
+        BadFile{"GoalNotAList", "[0.3, +1e-1]", "0.3", ":7: key \"goal\": must be a list"},
+        BadFile{"NoStart", "start:\n", "stop:\n", ":8: key \"stop\": not known here"},
+        BadFile{"NoVelocity", "  velocity: [0, 0]\n", "", ":8: key \"start\": needs the key"},
+        BadFile{"StartWithJerk", "  acceleration: [0, 0]", "  acceleration: [0, 0]\n  jerk: [0, 0]",
+                ":12: key \"jerk\": not known here"},
+        BadFile{"ShortVelocity", "velocity: [0, 0]", "velocity: [0]",
+                ":10: key \"velocity\": 1 numbers, must be 2"},
+        BadFile{"ShortWidths", "[0.4, 0.3, 0.3]", "[0.4, 0.3]",
+                ":14: key \"widths\": 2 numbers, must be 3 (one per kernel)"},
+        BadFile{"ZeroWidth", "[0.4,", "[0,", ":1: primitive: a kernel width is not > 0"},
+        BadFile{"MissingRow", "  - [7, -1]\n", "",
+                ":15: key \"weights\": 2 rows, must be 3 (one per kernel)"},
+        BadFile{"ShortRow", "[-30, 4]", "[-30]",
+                ":17: key \"weights\": 1 numbers, must be 2 (one per coordinate)"},
+        BadFile{"WeightNotFinite", "[7, -1]", "[7, -inf]",
+                ":18: key \"weights\": \"-inf\", must be a finite number"},
+        BadFile{"WeightAText", "[7, -1]", "[7, heavy]",
+                ":18: key \"weights\": \"heavy\", must be a finite number"},
+        BadFile{"WeightAList", "[7, -1]", "[7, [1]]",
+                ":18: key \"weights\": must be a finite number"},
+        BadFile{"ExtraKey", "weights:", "colour: blue\nweights:",
+                ":15: key \"colour\": not known here, must be one of format, kind"},
+        BadFile{"CutOff", "  - [7, -1]", "  - [7, -1", ":"},
+        BadFile{"SecondDocument", "- [7, -1]\n", "- [7, -1]\n---\nformat: more\n",
+                ":19: not part of the document, which ends before this"},
+        BadFile{"KeyOfTwoLines", "alpha: 2", "\"al\\npha\": 2",
+                ":5: key \"al pha\": not known here"},
+        BadFile{"StrayBracket", "[7, -1]\n", "[7, -1]]\n", ":"},
+        BadFile{"StrayBrackets", "format: ", ",", ":1: "},
+        BadFile{"StrayBraceBeforeMore", "H: 14}", "H: 14}}", ":6: "}),
+    [](const auto& bad) { return bad.param.name; });
+
+TEST(PrimitiveFile, RefusesWhatIsNotAFile) {
+  const TempFolder folder;
+  EXPECT_EQ(test::refusal([&] { read_primitive(folder.path("none.yaml")); }),
+            folder.path("none.yaml") + ": cannot be read");
+  EXPECT_THAT(test::refusal([&] { read_primitive(folder.path("")); }), HasSubstr("is a folder"));
+  EXPECT_THAT(test::refusal([&] { read_primitive(folder.write("empty.yaml", "")); }),
+              HasSubstr("must be a map"));
+  EXPECT_THAT(test::refusal([&] { read_primitive(folder.write("list.yaml", "[1, 2]")); }),
+              HasSubstr("list.yaml:1: must be a map"));
+}
+
+// What a killed writer would leave is refused wherever it was cut.
+TEST(PrimitiveFile, RefusesEveryBeginningOfAFile) {
+  const TempFolder folder;
+  for (std::size_t size = 0; size + 3 < good_primitive.size(); ++size)
+    EXPECT_THAT(test::refusal([&] {
+                  read_primitive(folder.write("cut.yaml", good_primitive.substr(0, size)));
+                }),
+                HasSubstr("cut.yaml"))
+        << size;
+}
+
+// Every kind of switch and entry, a primitive played twice, a start that moves.
+SequenceFile all_sorts(std::mt19937_64& random) {
+  const auto number = [&] { return std::uniform_real_distribution<double>(0.1, 0.4)(random); };
+  const Primitive reach = test::random_primitive(random, 3, 8);
+  const Primitive wipe = test::random_primitive(random, 3, 12, Kind::rhythmic);
+  SequenceFile file;
+  file.sequence.then(reach).until(before_end(number()));
+  file.sequence.then(wipe).enter(least_correction()).until(after_cycles(10.0 * number()));
+  file.sequence.then(reach).until(after(number()));
+  file.sequence.then(reach).until(at_phase(number()));
+  file.sequence.then(wipe).enter(from_phase(number() - 7.0)).until(on_call());
+  file.sequence.then(reach).until(near_goal(number() * 1e-3));
+  file.sequence.then(reach).until(before_end(-number()));
+  file.sequence.then(wipe);
+  file.primitives = {"reach", "wipe", "reach", "reach", "wipe", "reach", "reach", "wipe"};
+  file.start = Sample(3);
+  for (Eigen::VectorXd* part :
+       {&file.start->position, &file.start->velocity, &file.start->acceleration, &file.start->jerk})
+    *part = Eigen::VectorXd::NullaryExpr(3, [&] { return any_number(random); });
+  file.reference = orientation({number(), number(), number()}, Eigen::Quaterniond::Identity());
+  return file;
+}
+
+void expect_same_bits(const SequenceFile& a, const SequenceFile& b) {
+  EXPECT_EQ(a.primitives, b.primitives);
+  EXPECT_TRUE(same_bits(a.sequence.start_delay(), b.sequence.start_delay()));
+  EXPECT_TRUE(same_bits(a.start_state(), b.start_state()));
+  EXPECT_EQ(a.start.has_value(), b.start.has_value());
+  ASSERT_EQ(a.reference.has_value(), b.reference.has_value());
+  if (a.reference) {
+    EXPECT_TRUE(same_bits(a.reference->coeffs(), b.reference->coeffs()));
+  }
+  ASSERT_EQ(a.sequence.steps().size(), b.sequence.steps().size());
+  for (std::size_t i = 0; i < a.sequence.steps().size(); ++i) {
+    const Sequence::Step& one = a.sequence.steps()[i];
+    const Sequence::Step& two = b.sequence.steps()[i];
+    EXPECT_TRUE(same_bits(one.primitive, two.primitive)) << i;
+    EXPECT_EQ(one.until.when, two.until.when) << i;
+    EXPECT_TRUE(same_bits(one.until.value, two.until.value)) << i;
+    EXPECT_EQ(one.entry.where, two.entry.where) << i;
+    EXPECT_TRUE(same_bits(one.entry.phase, two.entry.phase)) << i;
+  }
+}
+
+TEST(SequenceFile, ComesBackBitForBit) {
+  const TempFolder folder;
+  std::mt19937_64 random(seed + 3);
+  for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE("seed " + std::to_string(seed + 3) + ", case " + std::to_string(i));
+    const SequenceFile file = all_sorts(random);
+    write_sequence(folder.path("all.yaml"), file);
+    expect_same_bits(read_sequence(folder.path("all.yaml")), file);
+  }
+  SequenceFile bare;
+  bare.sequence.start_after(0.1 + 0.2).then(test::random_primitive(random, 1));
+  bare.primitives = {"only"};
+  write_sequence(folder.path("bare.yaml"), bare);
+  expect_same_bits(read_sequence(folder.path("bare.yaml")), bare);
+}
+
+TEST(SequenceFile, RefusesToWriteWhatWouldNotComeBack) {
+  const TempFolder folder;
+  std::mt19937_64 random(seed + 4);
+  const SequenceFile good = all_sorts(random);
+  const auto refusal = [&](const std::function<void(SequenceFile&)>& spoil) {
+    SequenceFile file = good;
+    spoil(file);
+    return test::refusal([&] { write_sequence(folder.path("bad.yaml"), file); });
+  };
+  EXPECT_EQ(refusal([](SequenceFile& file) { file.primitives[3] = "wipe"; }),
+            "sequence: \"wipe\" is the name of two different primitives");
+  EXPECT_EQ(refusal([](SequenceFile& file) { file.primitives.pop_back(); }),
+            "sequence: 7 names for 8 primitives");
+  EXPECT_EQ(refusal([](SequenceFile& file) { file.primitives[0].clear(); }),
+            "sequence: a primitive has no name");
+  EXPECT_EQ(refusal([](SequenceFile& file) { file.start->velocity(1) = NAN; }),
+            "sequence: the start's velocity must be 3 finite numbers");
+  EXPECT_EQ(refusal([](SequenceFile& file) { file.start = Sample(2); }),
+            "sequence: the start's position must be 3 finite numbers");
+  EXPECT_EQ(refusal([](SequenceFile& file) { file = {}; }),
+            "sequence: empty, must have at least one primitive");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("bad.yaml")));
+}
+
+const std::string good_sequence = R"(format: seam-sequence 1
+start:
+  position: {x: 0.5}
+  velocity: {y: -1}
+start_after: 0
+primitives:
+  reach: {file: parts/reach.yaml}
+  ramp: {demonstration: ramp.csv, kernels: 12, width: 0.7, alpha: 2, gains: {K: 150}, cutoff: 5}
+  wipe: {file: parts/wipe.yaml}
+steps:
+  - {play: reach, until: {before_end: 0.4}}
+  - {play: wipe, enter: {phase: 1.5}, until: {cycles: 2}}
+  - {play: ramp, until: {at_phase: 0.2}}
+  - {play: reach}
+)";
+
+void write_parts(const TempFolder& folder) {
+  folder.write("parts/reach.yaml", good_primitive);
+  folder.write("parts/wipe.yaml", replaced(good_primitive, "discrete", "rhythmic"));
+  std::string ramp = "time,x,y\n";
+  for (int i = 0; i <= 100; ++i) {
+    const std::string t = std::to_string(0.01 * i);
+    ramp.append(t).append(",").append(t).append(",0\n");
+  }
+  folder.write("ramp.csv", ramp);
+}
+
+TEST(SequenceFile, IsReadAsItIsDocumented) {
+  const TempFolder folder;
+  write_parts(folder);
+  const SequenceFile file = read_sequence(folder.write("good.yaml", good_sequence));
+  const auto& steps = file.sequence.steps();
+  EXPECT_EQ(file.primitives, (std::vector<std::string>{"reach", "wipe", "ramp", "reach"}));
+  EXPECT_EQ(file.start_state().position, Eigen::Vector2d(0.5, 0.0));
+  EXPECT_EQ(file.start_state().velocity, Eigen::Vector2d(0.0, -1.0));
+  EXPECT_EQ(steps[0].until.value, 0.4);
+  EXPECT_EQ(steps[1].entry.where, Entry::Where::phase);
+  EXPECT_EQ(steps[1].entry.phase, 1.5);
+  EXPECT_EQ(steps[1].until.when, Switch::When::cycles);
+  EXPECT_EQ(steps[2].primitive.kernels.count(), 12);
+  EXPECT_EQ(steps[2].primitive.gains.K, 150.0);
+  EXPECT_EQ(steps[2].primitive.gains.D, 2.0 * std::sqrt(150.0));
+  EXPECT_NEAR(steps[2].primitive.goal(0), 1.0, 1e-12);
+  EXPECT_EQ(steps[3].until.when, Switch::When::before_end);
+  EXPECT_EQ(steps[3].until.value, 0.0);
+}
+
+// A demonstration with an orientation becomes rotation vectors about the sequence's reference.
+TEST(SequenceFile, TurnsOrientationsIntoCoordinatesAboutOneReference) {
+  const TempFolder folder;
+  std::string csv = "time,qx,qy,qz,qw\n";
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 0.01 * i;
+    csv += std::to_string(t) + ",0,0," + std::to_string(std::sin(0.5 * (0.2 + t))) + "," +
+           std::to_string(std::cos(0.5 * (0.2 + t))) + "\n";
+  }
+  folder.write("turn.csv", csv);
+  const std::string text =
+      "format: seam-sequence 1\nprimitives: {turn: {demonstration: turn.csv}}\n"
+      "steps: [{play: turn}]\n";
+  const SequenceFile own = read_sequence(folder.write("own.yaml", text));
+  ASSERT_TRUE(own.reference);
+  EXPECT_NEAR(own.reference->z(), std::sin(0.1), 1e-5);
+  EXPECT_EQ(own.sequence.coordinates(), (std::vector<std::string>{"rx", "ry", "rz"}));
+  EXPECT_NEAR(own.sequence.steps()[0].primitive.goal(2), 1.0, 1e-5);
+  const SequenceFile given =
+      read_sequence(folder.write("given.yaml", text + "reference: [0, 0, 0, 1]\n"));
+  EXPECT_NEAR(given.sequence.steps()[0].primitive.goal(2), 1.2, 1e-5);
+}
+
+class SequenceFileRefuses : public testing::TestWithParam<BadFile> {};
+
+TEST_P(SequenceFileRefuses, WithFileLineAndKey) {
+  const TempFolder folder;
+  write_parts(folder);
+  const std::string path =
+      folder.write("bad.yaml", replaced(good_sequence, GetParam().from, GetParam().to));
+  EXPECT_THAT(
+      test::refusal([&] { read_sequence(path); }),
+      testing::AllOf(StartsWith(path), HasSubstr("bad.yaml" + std::string(GetParam().message))));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , SequenceFileRefuses,
+    testing::Values(
+        BadFile{"NewerFormat", "sequence 1", "sequence 3",
+                ":1: key \"format\": \"seam-sequence 3\", must be seam-sequence 1 (a newer seam"},
+        BadFile{"ExtraKey", "start_after", "start_at",
+                ":5: key \"start_at\": not known here, must be one of format, start, start_after"},
+        BadFile{"NegativeDelay", "after: 0", "after: -1", ":5: key \"start_after\": -1, must be"},
+        BadFile{"StartOfNoCoordinate", "{x: 0.5}", "{z: 0.5}",
+                ":3: key \"z\": is not among the primitives' coordinates"},
+        BadFile{"StartNotFinite", "{x: 0.5}", "{x: .nan}",
+                ":3: key \"x\": \".nan\", must be a finite number"},
+        BadFile{"StartWithExtraPart", "velocity", "speed", ":4: key \"speed\": not known here"},
+        BadFile{"NoPrimitives", "primitives:", "primitive:", ":6: key \"primitive\": not known"},
+        BadFile{"NoSteps", "steps:", "start_after:", ":10: key \"start_after\": appears twice"},
+        BadFile{"NoPlaceForSteps", "steps:\n", "step:\n", ":10: key \"step\": not known here"},
+        BadFile{"NoSuchFile", "reach.yaml", "rich.yaml", ":7: key \"file\": "},
+        BadFile{"FileAndMore", "{file: parts/reach.yaml}", "{file: parts/reach.yaml, tau: 2}",
+                ":7: key \"tau\": not known here, must be one of file"},
+        BadFile{"Neither", "{file: parts/reach.yaml}", "{kernels: 3}",
+                ":7: key \"reach\": needs one of the keys file, demonstration, weights"},
+        BadFile{"NoSuchDemonstration", "ramp.csv", "rump.csv", ":8: key \"demonstration\": "},
+        BadFile{"TooManyKernels", "kernels: 12", "kernels: 60", ":8: key \"demonstration\": "},
+        BadFile{"HalfAKernel", "kernels: 12", "kernels: 1.5",
+                ":8: key \"kernels\": \"1.5\", must be a whole number >= 2"},
+        BadFile{"UnknownLearnSetting", "width: 0.7", "breadth: 0.7",
+                ":8: key \"breadth\": not known here, must be one of demonstration"},
+        BadFile{"GainsWithoutK", "{K: 150}", "{D: 150}", ":8: key \"gains\": needs the key \"K\""},
+        BadFile{"UnknownPrimitive", "play: ramp", "play: romp",
+                ":13: key \"play\": \"romp\", is not among the primitives"},
+        BadFile{"NothingToPlay", "play: ramp, ", "", ":13: key \"steps\": needs the key \"play\""},
+        BadFile{"ExtraInStep", "{play: reach}", "{play: reach, tau: 2}",
+                ":14: key \"tau\": not known here, must be one of play, enter, until"},
+        BadFile{"SwitchTooEarly", "before_end: 0.4", "before_end: 1.3",
+                ":11: key \"until\": sequence: primitive 1: its switch"},
+        BadFile{"SwitchNotFinite", "before_end: 0.4", "before_end: inf",
+                ":11: key \"before_end\": \"inf\", must be a finite number"},
+        BadFile{"UnknownSwitch", "before_end: 0.4", "sometime: 0.4",
+                ":11: key \"sometime\": not known here, must be one of after, before_end"},
+        BadFile{"UnknownSwitchText", "{before_end: 0.4}", "never",
+                ":11: key \"until\": \"never\", must be one of on_call"},
+        BadFile{"TwoSwitches", "before_end: 0.4", "before_end: 0.4, after: 1",
+                ":11: key \"until\": must have one of after, before_end"},
+        BadFile{"CyclesOfADiscreteOne", "before_end: 0.4", "cycles: 2",
+                ":11: key \"until\": sequence: primitive 1: is discrete"},
+        BadFile{"EndOfARhythmicOne", "{cycles: 2}", "{before_end: 0.1}",
+                ":12: key \"until\": sequence: primitive 2: is rhythmic"},
+        BadFile{"UnknownEntry", "{phase: 1.5}", "anywhere",
+                ":12: key \"enter\": \"anywhere\", must be one of beginning, least_correction"},
+        BadFile{"EntryOfADiscreteOne", "play: ramp,", "play: ramp, enter: beginning,",
+                ":13: key \"enter\": sequence: primitive 3: is discrete"},
+        BadFile{"ShortReference", "start_after: 0", "reference: [0, 0, 1]",
+                ":5: key \"reference\": 3 numbers, must be 4 (one per part x y z w)"},
+        BadFile{"ReferenceNotUnit", "start_after: 0", "reference: [0, 0, 1, 1]",
+                ":5: key \"reference\": quaternion of norm 1.414214, must be 1 within 0.001"}),
+    [](const auto& bad) { return bad.param.name; });
+
+TEST(SequenceFile, RefusesStepsThatAreNoList) {
+  const TempFolder folder;
+  write_parts(folder);
+  const std::string text = good_sequence.substr(0, good_sequence.find("steps:"));
+  for (const char* steps : {"steps: 3\n", "steps: []\n", "steps: {play: reach}\n"})
+    EXPECT_THAT(test::refusal([&] { read_sequence(folder.write("bad.yaml", text + steps)); }),
+                HasSubstr("bad.yaml:10: key \"steps\": must be a list with at least one entry"));
+  EXPECT_THAT(test::refusal([&] { read_sequence(folder.write("bad.yaml", text)); }),
+              HasSubstr("bad.yaml:1: needs the key \"steps\""));
+}
+
+TEST(SequenceFile, NamesThePlaceInTheFileThatItReads) {
+  const TempFolder folder;
+  write_parts(folder);
+  folder.write("parts/reach.yaml", replaced(good_primitive, "tau: 1.2", "tau: none"));
+  const std::string path = folder.write("good.yaml", good_sequence);
+  EXPECT_EQ(test::refusal([&] { read_sequence(path); }),
+            path + ":7: key \"file\": " + folder.path("parts/reach.yaml") +
+                ":4: key \"tau\": \"none\", must be a finite number");
+}
+
+TEST(SequenceFile, RefusesPrimitivesOfDifferentCoordinates) {
+  const TempFolder folder;
+  write_parts(folder);
+  folder.write("parts/wipe.yaml", replaced(good_primitive, "\"y\"", "\"z\""));
+  EXPECT_THAT(
+      test::refusal([&] { read_sequence(folder.write("bad.yaml", good_sequence)); }),
+      HasSubstr("bad.yaml:12: key \"play\": sequence: primitive 2: its coordinates differ"));
+}
+
+}  // namespace
+}  // namespace seam
