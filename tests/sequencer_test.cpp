@@ -173,7 +173,64 @@ TEST(Switch, OnCallComesWhenCalledAndNotBefore) {
   EXPECT_EQ(sequencer.running(), 0);
   EXPECT_TRUE(sequencer.hand_over());
   EXPECT_EQ(sequencer.running(), 1);
+  EXPECT_TRUE(sequencer.hand_over());
+  EXPECT_TRUE(sequencer.finished());
   EXPECT_FALSE(sequencer.hand_over());
+}
+
+TEST(Switch, OnCallEndsARhythm) {
+  Sequence sequence;
+  sequence.then(slow(Kind::rhythmic)).until(on_call());
+  Sequencer sequencer(sequence, Join::dmp3, Sample::at_rest(slow(Kind::rhythmic).start_position));
+  for (int k = 0; k < 2500; ++k) sequencer.step(1e-3);
+  EXPECT_FALSE(sequencer.finished());
+  EXPECT_TRUE(sequencer.hand_over());
+  EXPECT_TRUE(sequencer.finished());
+  for (int k = 0; k < 5000; ++k) sequencer.step(1e-3);
+  EXPECT_LT((sequencer.sample().position - slow(Kind::rhythmic).goal).cwiseAbs().maxCoeff(), 1e-3);
+}
+
+// A change of tau that puts the switch into the past: it comes with the next step, and nothing jumps.
+TEST(Switch, ThatIsOverdueComesAtOnceWithoutAJump) {
+  Sequence sequence;
+  sequence.then(slow(Kind::discrete)).until(before_end(0.6)).then(slow(Kind::discrete));
+  Sequencer sequencer(sequence, Join::dmp2a, Sample::at_rest(Eigen::Vector2d::Zero()));
+  for (int k = 0; k < 300; ++k) sequencer.step(1e-3);
+  ASSERT_TRUE(sequencer.set_tau(0.3));
+  const Sample before = sequencer.sample();
+  sequencer.step(1e-6);
+  EXPECT_EQ(sequencer.running(), 1);
+  EXPECT_LT((sequencer.sample().position - before.position).norm(), 1e-5);
+  EXPECT_LT((sequencer.sample().velocity - before.velocity).norm(), 1e-3);
+}
+
+// Every method, every join of a longer queue, and what a sequencer can be told on the way.
+TEST(Sequencer, DoesAnythingWithoutAllocating) {
+  for (const Join method : all_joins) {
+    Sequence sequence;
+    sequence.start_after(0.01).then(slow(Kind::discrete)).until(near_goal(0.5));
+    sequence.then(slow(Kind::rhythmic)).enter(least_correction()).until(after_cycles(0.5));
+    sequence.then(slow(Kind::discrete))
+        .until(after(0.2))
+        .then(slow(Kind::rhythmic))
+        .until(on_call());
+    Sequencer sequencer(sequence, method, Sample::at_rest(Eigen::Vector2d::Zero()));
+    const Eigen::VectorXd goal = Eigen::Vector2d(0.3, -0.2);
+    const Sample measured = sequencer.sample();
+    const AllocationGuard guard;
+    for (int k = 0; k < 3000; ++k) {
+      if (k == 100) sequencer.set_goal(goal);
+      if (k == 200) sequencer.set_tau(0.8);
+      if (k == 300) sequencer.set_rate(0.5, 0.1);
+      if (k == 350) sequencer.set_rate(1.0, 0.1);
+      if (k == 500) sequencer.reinitialise(measured);
+      if (k == 2500) sequencer.hand_over();
+      sequencer.set_amplitude(1.1);
+      sequencer.step(1e-3);
+    }
+    EXPECT_EQ(guard.allocations(), 0) << to_string(method);
+    EXPECT_TRUE(sequencer.sample().position.allFinite());
+  }
 }
 
 TEST(Switch, FollowsAChangeOfTau) {

@@ -165,8 +165,9 @@ double Basis::time_to(double later, double phase, double tau) const noexcept {
 
 double Basis::next(double value, double phase) const noexcept {
   constexpr double turn = 2.0 * M_PI;
-  return kind_ == Kind::discrete ? value
-                                 : value + turn * (std::floor((phase - value) / turn) + 1.0);
+  if (kind_ == Kind::discrete) return value;
+  const double after = value + turn * (std::floor((phase - value) / turn) + 1.0);
+  return after > phase + 1e-9 ? after : after + turn;
 }
 
 double Basis::phase_rate(double phase, double tau) const noexcept {

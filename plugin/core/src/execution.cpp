@@ -9,10 +9,11 @@ namespace seam {
 namespace {
 
 constexpr double faded_phase = 0.05;  // x below which weights have lost their hold
-constexpr double least_angle2 =
-    1e-3;  // sine squared between a and ȧ, for both to be met by the weights
 constexpr double least_share =
-    0.1;  // of the first kernel against the strongest, for it to be changed alone
+    0.1;  // of the first kernel against the strongest, to be changed alone
+constexpr double least_tau = 1e-6;   // [s]
+constexpr double largest_tau = 1e9;  // [s]
+constexpr double forgotten = 40.0;   // time constants after which an added forcing is nothing
 
 const Primitive& valid(const Primitive& primitive) {
   primitive.validate();
@@ -65,20 +66,12 @@ SEAM_WIDEST_VECTORS void observe(double k, double c, double b, int D, const doub
   }
 }
 
-// 1 − (10s³ − 15s⁴ + 6s⁵) and s − 6s³ + 8s⁴ − 3s⁵: from (1, 0, 0) and (0, 1, 0) at s = 0 to (0, 0, 0) at 1.
-double fade_value(double s) {
+// 1 − (10s³ − 15s⁴ + 6s⁵), and its derivative with respect to s.
+double fade(double s) {
   return s < 1.0 ? 1.0 - s * s * s * (10.0 + s * (-15.0 + 6.0 * s)) : 0.0;
 }
-double fade_rate(double s) {
-  return s < 1.0 ? s * (1.0 + s * s * (-6.0 + s * (8.0 - 3.0 * s))) : 0.0;
-}
-
-// Their derivatives with respect to s.
-double fade_value_slope(double s) {
+double fade_slope(double s) {
   return s < 1.0 ? -30.0 * s * s * (1.0 - s) * (1.0 - s) : 0.0;
-}
-double fade_rate_slope(double s) {
-  return s < 1.0 ? 1.0 + s * s * (-18.0 + s * (32.0 - 15.0 * s)) : 0.0;
 }
 
 }  // namespace
@@ -108,70 +101,125 @@ Execution::Execution(const Primitive& primitive)
 
 void Execution::reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept {
   join_ = join;
+  changed_ = extended_ = false;
+  change_.setZero();
+  extra_.setZero();
+  extra_rate_.setZero();
+  since_join_ = since_extra_ = 0.0;
+  fade_time_ = M_PI * tau_;
+  extra_tau_ = tau_;
+  continue_at(at, phase, true);
+}
+
+// Continues from a state: what is missing of the forcing is made up for as the method says. At a join by the weights if
+// they hold, on the way of a rhythmic primitive by a forcing that is added and dies out.
+void Execution::continue_at(const Sample& at, double phase, bool at_join) noexcept {
   entry_phase_ = phase_ = phase;
   elapsed_ = 0.0;
-  changed_ = extended_ = false;
-  basis_.regressor(phase, rows_.data());
-  basis_.slope(phase, rows_.data(), slope_.data());
-  rows_.head(basis_.count()) *= amplitude_;
-  slope_ *= amplitude_ * basis_.phase_rate(phase, tau_);
+  evaluate_regressor();
+  rebase_extra();
+  const bool by_weights = weights_hold() && (at_join || kind() == Kind::discrete);
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const Forcing has = learned(d);
+    const Forcing has = present(d);
     const Forcing needs = needed(at, d);
+    const Forcing missing{needs.value - has.value, needs.rate - has.rate};
     offset_(d) = at.position(d) - goal_(d);
     velocity_(d) = at.velocity(d);
-    lag_(d) = join.method == Join::dmp3 ? (needs.value - has.value) / gains_.K : 0.0;
+    lag_(d) = join_.method == Join::dmp3 ? missing.value / gains_.K : 0.0;
     f_start_(d) = has.value;
-    if (join.method == Join::dmp2a || join.method == Join::dmp2j)
-      correct(d, {needs.value - has.value, needs.rate - has.rate}, join);
+    if (join_.method != Join::dmp2a && join_.method != Join::dmp2j) continue;
+    f_start_(d) = needs.value;
+    if (by_weights)
+      change_weights(d, missing);
+    else
+      extend(d, missing);
   }
-  if (changed_ || extended_) add_corrections(0.0, rows_.data(), f_start_);
   refresh_sample();
 }
 
-// Changes the weights, or adds to the forcing, so that what is missing is there at the present phase.
-void Execution::correct(Eigen::Index d, Forcing missing, const JoinSettings& join) noexcept {
-  if (!weights_hold(join)) {
-    extended_ = true;
-    extra_(d) = missing.value;
-    extra_rate_(d) = join.method == Join::dmp2j ? missing.rate : 0.0;
-    return;
-  }
+void Execution::extend(Eigen::Index d, Forcing missing) noexcept {
+  extended_ = true;
+  extra_(d) += missing.value;
+  if (join_.method == Join::dmp2j) extra_rate_(d) += missing.rate;
+}
+
+void Execution::change_weights(Eigen::Index d, Forcing missing) noexcept {
   changed_ = true;
   const auto row = rows_.head(basis_.count());
   auto change = change_.col(d);
   const double aa = row.squaredNorm();
-  if (join.method == Join::dmp2j) {
+  if (join_.method == Join::dmp2j) {
     const double ab = row.dot(slope_);
     const double bb = slope_.squaredNorm();
     const double determinant = aa * bb - ab * ab;
-    change = row * ((bb * missing.value - ab * missing.rate) / determinant) +
-             slope_ * ((aa * missing.rate - ab * missing.value) / determinant);
-  } else if (join.change == WeightChange::smallest) {
-    change = row * (missing.value / aa);
+    change += row * ((bb * missing.value - ab * missing.rate) / determinant) +
+              slope_ * ((aa * missing.rate - ab * missing.value) / determinant);
+  } else if (join_.change == WeightChange::smallest) {
+    change += row * (missing.value / aa);
   } else {
     Eigen::Index kernel = 0;
-    if (join.change == WeightChange::strongest) row.cwiseAbs().maxCoeff(&kernel);
-    change.setZero();
-    change(kernel) = missing.value / row(kernel);
+    if (join_.change == WeightChange::strongest) row.cwiseAbs().maxCoeff(&kernel);
+    change(kernel) += missing.value / row(kernel);
   }
 }
 
-bool Execution::weights_hold(const JoinSettings& join) const noexcept {
+bool Execution::weights_hold() const noexcept {
   if (kind() == Kind::discrete && phase_ < faded_phase) return false;
   const auto row = rows_.head(basis_.count());
-  if (join.method == Join::dmp2j) {
+  const double aa = row.squaredNorm();
+  if (!(aa > 1e-12)) return false;
+  if (join_.method == Join::dmp2j) {
+    const double own_rate =
+        basis_.phase_rate(phase_, tau_) / (kind() == Kind::discrete ? phase_ : 1.0);
     const double ab = row.dot(slope_);
-    return ab * ab < (1.0 - least_angle2) * row.squaredNorm() * slope_.squaredNorm();
+    return aa * slope_.squaredNorm() - ab * ab >= aa * aa * own_rate * own_rate;
   }
-  if (join.change == WeightChange::first)
+  if (join_.change == WeightChange::first)
     return std::abs(row(0)) > least_share * row.cwiseAbs().maxCoeff();
   return true;
 }
 
-Execution::Forcing Execution::learned(Eigen::Index d) const noexcept {
-  const auto w = weights_.col(d);
-  return {w.dot(rows_.head(basis_.count())), w.dot(slope_)};
+// a(p) and ȧ at the present phase, with the amplitude.
+void Execution::evaluate_regressor() noexcept {
+  basis_.regressor(phase_, rows_.data());
+  basis_.slope(phase_, rows_.data(), slope_.data());
+  rows_.head(basis_.count()) *= amplitude_;
+  slope_ *= amplitude_ * basis_.phase_rate(phase_, tau_);
+}
+
+// The forcing and its rate as they are: learned, changed and added.
+Execution::Forcing Execution::present(Eigen::Index d) const noexcept {
+  const auto row = rows_.head(basis_.count());
+  Forcing f{weights_.col(d).dot(row), weights_.col(d).dot(slope_)};
+  if (changed_) {
+    const double share = kind() == Kind::rhythmic ? fade(since_join_ / fade_time_) : 1.0;
+    const double slope =
+        kind() == Kind::rhythmic ? fade_slope(since_join_ / fade_time_) / fade_time_ : 0.0;
+    f.value += share * change_.col(d).dot(row);
+    f.rate += share * change_.col(d).dot(slope_) + slope * change_.col(d).dot(row);
+  }
+  if (extended_) {
+    const double u = since_extra_ / extra_time();
+    f.value += std::exp(-u) * ((1.0 + u) * extra_(d) + since_extra_ * extra_rate_(d));
+    f.rate += std::exp(-u) * ((1.0 - u) * extra_rate_(d) - u / extra_time() * extra_(d));
+  }
+  return f;
+}
+
+// Moves the origin of the added forcing's time to now.
+void Execution::rebase_extra() noexcept {
+  if (!extended_) {
+    extra_.setZero();
+    extra_rate_.setZero();
+  }
+  const double u = since_extra_ / extra_time();
+  const double decay = std::exp(-u);
+  for (Eigen::Index d = 0; d < dimensions(); ++d) {
+    const double value = decay * ((1.0 + u) * extra_(d) + since_extra_ * extra_rate_(d));
+    extra_rate_(d) = decay * ((1.0 - u) * extra_rate_(d) - u / extra_time() * extra_(d));
+    extra_(d) = value;
+  }
+  since_extra_ = 0.0;
 }
 
 Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noexcept {
@@ -182,8 +230,8 @@ Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noe
       tau2 * at.jerk(d) + damping * at.acceleration(d) + gains_.K * at.velocity(d)};
 }
 
-double Execution::fade_time() const noexcept {
-  return kind() == Kind::rhythmic ? M_PI * tau_ : 0.5 * tau_;
+double Execution::extra_time() const noexcept {
+  return extra_tau_ / gains_.H;
 }
 
 void Execution::step(double dt) noexcept {
@@ -197,8 +245,12 @@ void Execution::step(double dt) noexcept {
   if (amplitude_ != 1.0) rows_ *= amplitude_;
   learned_forcing(weights_.data(), M, stride, rows_.data(), f_middle_.data(), f_end_.data());
   if (changed_ || extended_) {
-    add_corrections(middle, rows_.data(), f_middle_);
-    add_corrections(elapsed_, rows_.data() + M, f_end_);
+    add_corrections(0.5 * dt, rows_.data(), f_middle_);
+    add_corrections(dt, rows_.data() + M, f_end_);
+    since_join_ += dt;
+    since_extra_ += dt;
+    changed_ = changed_ && (kind() == Kind::discrete || since_join_ < fade_time_);
+    extended_ = extended_ && since_extra_ < forgotten * extra_time();
   }
   propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, f_start_.data(),
             f_middle_.data(), f_end_.data(), offset_.data(), velocity_.data(), lag_.data());
@@ -206,12 +258,16 @@ void Execution::step(double dt) noexcept {
   refresh_sample();
 }
 
-void Execution::add_corrections(double elapsed, const double* row,
+// What is changed and added, a time after now.
+void Execution::add_corrections(double ahead, const double* row,
                                 Eigen::VectorXd& f) const noexcept {
-  const double s = elapsed / fade_time();
-  if (extended_) f += fade_value(s) * extra_ + fade_time() * fade_rate(s) * extra_rate_;
-  const double share = kind() == Kind::rhythmic ? fade_value(s) : 1.0;
-  if (!changed_ || share == 0.0) return;
+  if (extended_) {
+    const double t = since_extra_ + ahead;
+    const double u = t / extra_time();
+    f += (std::exp(-u) * (1.0 + u)) * extra_ + (std::exp(-u) * t) * extra_rate_;
+  }
+  if (!changed_) return;
+  const double share = kind() == Kind::rhythmic ? fade((since_join_ + ahead) / fade_time_) : 1.0;
   for (int j = 0; j < basis_.count(); ++j) f += (share * row[j]) * change_.row(j).transpose();
 }
 
@@ -227,50 +283,41 @@ void Execution::refresh_sample() noexcept {
 }
 
 const Sample& Execution::state() noexcept {
-  const int M = basis_.count();
-  const double s = elapsed_ / fade_time();
-  const double share = kind() == Kind::rhythmic ? fade_value(s) : 1.0;
-  const double share_rate = kind() == Kind::rhythmic ? fade_value_slope(s) / fade_time() : 0.0;
-  basis_.regressor(phase_, rows_.data());
-  basis_.slope(phase_, rows_.data(), slope_.data());
-  rows_.head(M) *= amplitude_;
-  slope_ *= amplitude_ * basis_.phase_rate(phase_, tau_);
+  evaluate_regressor();
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    double rate = learned(d).rate;
-    if (changed_)
-      rate += share * change_.col(d).dot(slope_) + share_rate * change_.col(d).dot(rows_.head(M));
-    if (extended_)
-      rate += fade_value_slope(s) / fade_time() * extra_(d) + fade_rate_slope(s) * extra_rate_(d);
     const double lag_rate = -gains_.H / tau_ * lag_(d);
-    sample_.jerk(d) =
-        (gains_.K * (lag_rate - velocity_(d)) - tau_ * gains_.D * sample_.acceleration(d) + rate) /
-        (tau_ * tau_);
+    sample_.jerk(d) = (gains_.K * (lag_rate - velocity_(d)) -
+                       tau_ * gains_.D * sample_.acceleration(d) + present(d).rate) /
+                      (tau_ * tau_);
   }
   return sample_;
 }
 
 bool Execution::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {
   if (goal.size() != dimensions() || !goal.allFinite()) return false;
+  if (goal == goal_.head(dimensions())) return true;
   const Sample& now = state();
   goal_.head(dimensions()) = goal;
-  reinitialise(now, phase_, join_);
+  continue_at(now, phase_, false);
   return true;
 }
 
 bool Execution::set_tau(double tau) noexcept {
-  if (!(std::isfinite(tau) && tau > 0.0)) return false;
+  if (!(tau >= least_tau && tau <= largest_tau)) return false;
+  if (tau == tau_) return true;
   const Sample& now = state();
   tau_ = tau;
-  dt_ = 0.0;
-  reinitialise(now, phase_, join_);
+  dt_ = std::numeric_limits<double>::quiet_NaN();
+  continue_at(now, phase_, false);
   return true;
 }
 
 bool Execution::set_amplitude(double amplitude) noexcept {
   if (!std::isfinite(amplitude) || kind() != Kind::rhythmic) return false;
+  if (amplitude == amplitude_) return true;
   const Sample& now = state();
   amplitude_ = amplitude;
-  reinitialise(now, phase_, join_);
+  continue_at(now, phase_, false);
   return true;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 // Two times closer than this share of a step are the same tick.
 constexpr double same_tick = 1e-6;
+constexpr double most_slack = 1e-9;  // [s]
 constexpr double never = std::numeric_limits<double>::infinity();
 
 // A discrete primitive without forcing: it settles at the goal.
@@ -66,6 +67,7 @@ void Sequencer::append(const Sequence& sequence) {
   if (!finished_) return;
   finished_ = false;
   switch_over();
+  rescale();
 }
 
 void Sequencer::replace(const Sequence& sequence) {
@@ -80,9 +82,7 @@ void Sequencer::clear() noexcept {
 }
 
 void Sequencer::step(double dt) noexcept {
-  const double time = scale_.advance(dt);
-  behind_ += dt - time;
-  advance(time);
+  advance(dt, scale_.advance(dt));
   if (near_goal()) switch_over();
   rescale();
 }
@@ -96,26 +96,30 @@ void Sequencer::rescale() noexcept {
       rate * rate * motion().acceleration + scale_.rate_change() * motion().velocity;
 }
 
-void Sequencer::advance(double time) noexcept {
-  const double slack = same_tick * time;
-  for (double left = time; left > 0.0;) {
+// By a time of the motion, in which real time advances by dt.
+void Sequencer::advance(double dt, double time) noexcept {
+  const double slack = std::min(same_tick * time, most_slack);
+  double left = time;
+  while (left > 0.0) {
     const double until_due = due() - own_time_;
     const double h = until_due < left - slack ? std::max(until_due, 0.0) : left;
-    if (running_ >= 0) now().step(h);
+    if (running_ >= 0 && h > 0.0) now().step(h);
     own_time_ += h;
+    behind_ += (dt - time) * h / time;
     left -= h;
     if (until_due <= h + slack) {
       if (own_time_ - due() < slack) own_time_ = due();
       switch_over();
     }
   }
+  if (time == 0.0) behind_ += dt;
 }
 
 double Sequencer::due() const noexcept {
   return finished_ ? never : due_;
 }
 
-// After anything that moves the switch: entering, a change of tau, a re-initialisation.
+// After what moves the switch: entering, a change of tau.
 void Sequencer::update_due() noexcept {
   const Switch& until = items_[index()].until;
   const Basis& basis = now().basis();
@@ -150,9 +154,9 @@ bool Sequencer::near_goal() const noexcept {
 }
 
 bool Sequencer::hand_over() noexcept {
-  if (is_last()) return false;
-  finished_ = false;
+  if (finished_) return false;
   switch_over();
+  rescale();
   return true;
 }
 
@@ -171,6 +175,7 @@ void Sequencer::switch_over() noexcept {
   if (running_ >= 0 && now().kind() == Kind::rhythmic) {
     Execution& rest = items_[index()].rest;
     rest.set_goal(now().goal());
+    rest.set_tau(M_PI * now().tau());
     join_to(rest, rest.basis().start_phase(), running_);
     settling_ = true;
   }

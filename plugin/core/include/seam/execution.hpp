@@ -23,17 +23,21 @@ namespace seam {
 /// A discrete primitive needs no undo of Δw: x fades. A rhythmic one blends it out over half a cycle by
 /// 1 − (10s³ − 15s⁴ + 6s⁵).
 ///
-/// Weights lose their hold where a discrete phase has faded to x < 0.05, where a and ȧ are nearly parallel (dmp2j:
-/// one kernel alone is left; sin² < 10⁻³), and where the first kernel, changed alone, is weaker than a tenth of the
-/// strongest. dmp2a and dmp2j then add the missing forcing F − aᵀw itself and blend it out over τ/2 (rhythmic: half a
-/// cycle) by the same polynomial; dmp2j by the quintic that begins with the rate Ḟ − ȧᵀw as well.
+/// A change on the way (goal, τ, amplitude) keeps the Δw that is there and makes up for what the change alone makes
+/// missing, so that a goal may be streamed; discrete by a further Δw, rhythmic by a forcing that is added.
+///
+/// Weights have lost their hold where a discrete phase has faded to x < 0.05, where |a| vanishes, for dmp2j where
+/// the part of ȧ across a is shorter than |a|·|ẋ/x| (rhythmic: |a|·|φ̇|), and where the first kernel, changed
+/// alone, is weaker than a tenth of the strongest. dmp2a and dmp2j then add what is missing to the forcing, and it
+/// dies out critically damped with the time constant τ/H, (e₀ + (ė₀ + e₀H/τ)t)·exp(−Ht/τ); dmp2a with ė₀ = 0.
 class Execution {
  public:
   /// Stands at the primitive's own start (the demonstration's first position and velocity, r = g).
   /// @throws Error  the primitive is not valid
   explicit Execution(const Primitive& primitive);
 
-  /// Continues from a state at a phase of the primitive.
+  /// Continues from a state at a phase of the primitive, which the caller vouches for: D finite values each (the jerk
+  /// counts for dmp2j alone), 0 < x ≤ 1 or φ finite.
   void reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept;
   /// Advances by dt [s] ≥ 0. Exact in the linear part, of fourth order in the forcing.
   void step(double dt) noexcept;
@@ -70,14 +74,18 @@ class Execution {
     double value, rate;
   };
 
-  void set_step(double dt) noexcept;
-  void add_corrections(double elapsed, const double* row, Eigen::VectorXd& f) const noexcept;
-  void refresh_sample() noexcept;
-  void correct(Eigen::Index d, Forcing missing, const JoinSettings& join) noexcept;
-  Forcing learned(Eigen::Index d) const noexcept;
+  void continue_at(const Sample& at, double phase, bool at_join) noexcept;
+  void change_weights(Eigen::Index d, Forcing missing) noexcept;
+  void extend(Eigen::Index d, Forcing missing) noexcept;
+  bool weights_hold() const noexcept;
+  void evaluate_regressor() noexcept;
+  void rebase_extra() noexcept;
+  double extra_time() const noexcept;
+  Forcing present(Eigen::Index d) const noexcept;
   Forcing needed(const Sample& at, Eigen::Index d) const noexcept;
-  double fade_time() const noexcept;
-  bool weights_hold(const JoinSettings& join) const noexcept;
+  void set_step(double dt) noexcept;
+  void add_corrections(double ahead, const double* row, Eigen::VectorXd& f) const noexcept;
+  void refresh_sample() noexcept;
   double valley(const Sample& at, double low, double high) noexcept;
 
   Gains gains_;
@@ -100,7 +108,11 @@ class Execution {
   double dt_ = 0.0;
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
-  double elapsed_ = 0.0;  // [s] since the last re-initialisation
+  double since_join_ = 0.0;   // [s] the age of change_
+  double since_extra_ = 0.0;  // [s] the age of extra_
+  double fade_time_ = 1.0;    // [s] half a cycle
+  double extra_tau_ = 1.0;    // [s] tau when the execution was re-initialised
+  double elapsed_ = 0.0;      // [s] since the last re-initialisation
   Sample sample_;
 };
 

@@ -28,7 +28,7 @@ struct JoinEvent {
 ///
 /// When the last switch has been due a discrete primitive goes on towards its goal; a rhythmic one is followed by a
 /// motion that settles at its goal, joined like any other.
-/// `step` and the changes neither allocate nor throw; construction, `append`, `replace` and `clear` allocate.
+/// `step` and the changes neither allocate nor throw; construction, `append` and `replace` allocate.
 class Sequencer {
  public:
   /// @param start  state to begin in, usually at rest where the arm is; it is joined to as well
@@ -38,7 +38,8 @@ class Sequencer {
   /// Advances by dt [s] ≥ 0.
   void step(double dt) noexcept;
 
-  /// Hands over to the next primitive now, whatever its switch says. False where there is none.
+  /// Hands over to the next primitive now, whatever its switch says; the last one is finished by it. False where the
+  /// sequence is finished already.
   bool hand_over() noexcept;
   /// Goal, tau [s] and amplitude of what runs now (see Execution). False, and no change, where nothing runs yet or the
   /// value will not do.
@@ -85,7 +86,7 @@ class Sequencer {
   std::size_t index() const noexcept { return static_cast<std::size_t>(running_); }
   /// In the motion's own time, as everything below.
   const Sample& motion() const noexcept { return running_ < 0 ? start_ : now().sample(); }
-  void advance(double time) noexcept;
+  void advance(double dt, double time) noexcept;
   void rescale() noexcept;
   const Execution& now() const noexcept {
     return settling_ ? items_[index()].rest : items_[index()].execution;
