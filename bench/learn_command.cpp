@@ -26,8 +26,11 @@ struct Options {
   DerivativeSettings derivatives;
 };
 
-Demonstration about_reference(const Demonstration& demo, const Options& options) {
+// Rotation vectors that the file has itself are taken as about the reference.
+Demonstration about_reference(Demonstration demo, const Options& options) {
+  const bool turns = has_orientation(demo);
   if (options.reference.empty()) {
+    if (!turns) return demo;
     const Eigen::Vector4d first = first_orientation(demo).coeffs();
     throw Error(demo.source,
                 fmt::format("has an orientation, needs --reference QX QY QZ QW, the same for all "
@@ -38,7 +41,9 @@ Demonstration about_reference(const Demonstration& demo, const Options& options)
   if (!(std::abs(q0.norm() - 1.0) <= 1e-3))
     throw Error("--reference",
                 fmt::format("quaternion of norm {:g}, must be 1 within 0.001", q0.norm()));
-  return with_rotation_vector(demo, q0.normalized(), options.derivatives);
+  if (turns) return with_rotation_vector(demo, q0.normalized(), options.derivatives);
+  demo.reference_orientation = q0.normalized();
+  return demo;
 }
 
 std::string time_constant(const Primitive& primitive) {
@@ -61,8 +66,8 @@ void print_summary(const Demonstration& demo, const Primitive& primitive, const 
 
 void learn_file(Options options) {
   options.learning.gains = Gains::critical(options.stiffness);
-  Demonstration demo = Demonstration::read(options.demonstration, options.derivatives);
-  if (has_orientation(demo)) demo = about_reference(demo, options);
+  const Demonstration demo =
+      about_reference(Demonstration::read(options.demonstration, options.derivatives), options);
   const Primitive primitive = learn(demo, options.learning);
   const LearnReport report = assess(demo, primitive);
   write_primitive(options.out, primitive);

@@ -1,9 +1,6 @@
-#include <algorithm>
-
 #include <gmock/gmock.h>
 
-#include "tests/run_program.hpp"
-#include "tests/support.hpp"
+#include "tests/refusals.hpp"
 #include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
 #include <seam/sequence_file.hpp>
@@ -13,11 +10,11 @@
 namespace seam {
 namespace {
 
+using test::BadCall;
 using test::Outcome;
 using test::run;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 // Two demonstrations of one coordinate, and one of an orientation.
 struct Kitchen : TempFolder {
@@ -176,23 +173,11 @@ TEST(FilesProgram, Helps) {
   }
 }
 
-struct BadCall {
-  const char* name;
-  const char* arguments;  // in a folder with reach.csv, wipe.csv and turn.csv
-  const char* message;
-};
-
 class FilesProgramRefuses : public testing::TestWithParam<BadCall> {};
 
 TEST_P(FilesProgramRefuses, WithOneLineAndExitCodeTwoAndNoFile) {
   const Kitchen kitchen;
-  std::string arguments = GetParam().arguments;
-  for (auto at = arguments.find('@'); at != std::string::npos; at = arguments.find('@', at))
-    arguments.replace(at, 1, kitchen.path(""));
-  const Outcome outcome = run(arguments);
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.output, AllOf(StartsWith("seam: "), HasSubstr(GetParam().message)));
-  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+  test::expect_refused(GetParam(), kitchen);
   const auto files = std::filesystem::directory_iterator(kitchen.path(""));
   EXPECT_EQ(std::distance(begin(files), end(files)), 3) << "something was written";
 }
@@ -221,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "task.yaml: cannot be read"},
         BadCall{"NotASequence", "rollout @reach.csv -o @out.csv --method dmp3", "reach.csv:1: "},
         BadCall{"ZeroStep", "rollout @task.yaml -o @out.csv --method dmp3 --dt 0", "--dt"}),
-    [](const auto& bad) { return bad.param.name; });
+    test::by_name);
 
 }  // namespace
 }  // namespace seam

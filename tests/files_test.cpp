@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support.hpp"
+#include "tests/refusals.hpp"
 #include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
 #include <seam/sequence_file.hpp>
@@ -11,6 +11,8 @@
 namespace seam {
 namespace {
 
+using test::BadFile;
+using test::replaced;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -25,6 +27,11 @@ bool same_bits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
          std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
+bool same_bits(const std::optional<Eigen::Quaterniond>& a,
+               const std::optional<Eigen::Quaterniond>& b) {
+  return a.has_value() == b.has_value() && (!a || same_bits(a->coeffs(), b->coeffs()));
+}
+
 bool same_bits(const Gains& a, const Gains& b) {
   return same_bits(a.K, b.K) && same_bits(a.D, b.D) && same_bits(a.H, b.H);
 }
@@ -36,7 +43,8 @@ bool same_bits(const Primitive& a, const Primitive& b) {
          same_bits(a.goal, b.goal) && same_bits(a.tau, b.tau) &&
          same_bits(a.start_position, b.start_position) &&
          same_bits(a.start_velocity, b.start_velocity) &&
-         same_bits(a.start_acceleration, b.start_acceleration);
+         same_bits(a.start_acceleration, b.start_acceleration) &&
+         same_bits(a.reference_orientation, b.reference_orientation);
 }
 
 bool same_bits(const Sample& a, const Sample& b) {
@@ -44,29 +52,34 @@ bool same_bits(const Sample& a, const Sample& b) {
          same_bits(a.acceleration, b.acceleration) && same_bits(a.jerk, b.jerk);
 }
 
-// Any finite double: every exponent alike, denormals, both zeros and the extremes among them.
-double any_number(std::mt19937_64& random) {
-  constexpr double special[] = {0.0, -0.0, DBL_MAX, -DBL_MAX, DBL_MIN, 5e-324, 2.2e-310, 1e22, 0.1};
-  if (random() % 4 == 0) return special[random() % std::size(special)];
+// Any double that a primitive may hold: every exponent alike, denormals, both zeros and the ends among them.
+double any_number(std::mt19937_64& random, const Bounds& bounds = value_bounds) {
+  const double special[] = {0.0,      -0.0, bounds.least, bounds.largest, DBL_MIN, 5e-324,
+                            2.2e-310, 1e22, 0.1};
   for (;;) {
+    const double chosen = special[random() % std::size(special)];
+    if (random() % 4 == 0 && bounds.hold(chosen)) return chosen;
     const std::uint64_t bits = random();
     double value = 0.0;
     std::memcpy(&value, &bits, sizeof value);
-    if (std::isfinite(value)) return value;
+    if (bounds.hold(value)) return value;
   }
 }
 
-double any_positive(std::mt19937_64& random) {
-  const double value = std::abs(any_number(random));
-  return value > 0.0 ? value : 5e-324;
+// A unit quaternion of any sign, also where rounding has left its norm beside 1.
+Eigen::Quaterniond any_orientation(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const Eigen::Vector4d xyzw(normal(random), normal(random), normal(random), normal(random));
+  return Eigen::Quaterniond(xyzw.normalized() * (random() % 2 ? 1.0 : 1.0 + 0.9 * unit_tolerance));
 }
 
 Primitive any_primitive(std::mt19937_64& random) {
-  const auto D = static_cast<Eigen::Index>(1 + random() % 7);
+  const bool turns = random() % 2;
+  const auto D = static_cast<Eigen::Index>(turns ? 4 : 1 + random() % 7);
   const auto M = static_cast<Eigen::Index>(2 + random() % 20);
-  const auto any = [&](Eigen::Index rows, Eigen::Index cols) {
+  const auto any = [&](Eigen::Index rows, Eigen::Index cols, const Bounds& bounds = value_bounds) {
     return Eigen::MatrixXd(
-        Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return any_number(random); }));
+        Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return any_number(random, bounds); }));
   };
   Primitive primitive;
   primitive.kind = random() % 2 ? Kind::rhythmic : Kind::discrete;
@@ -74,11 +87,16 @@ Primitive any_primitive(std::mt19937_64& random) {
                              "\xCF\x86", "-",  "\t\n"};
   for (Eigen::Index d = 0; d < D; ++d)
     primitive.coordinates.push_back(odd[random() % std::size(odd)] + std::to_string(d));
-  primitive.gains = {any_positive(random), any_positive(random), any_positive(random)};
-  primitive.alpha = any_positive(random);
-  primitive.tau = any_positive(random);
-  primitive.kernels.centers = any(M, 1);
-  primitive.kernels.widths = Eigen::VectorXd::NullaryExpr(M, [&] { return any_positive(random); });
+  if (turns) {
+    primitive.coordinates = {"ry", "a", "rx", "rz"};
+    primitive.reference_orientation = any_orientation(random);
+  }
+  const auto gain = [&] { return any_number(random, gain_bounds); };
+  primitive.gains = {gain(), gain(), gain()};
+  primitive.alpha = any_number(random, alpha_bounds);
+  primitive.tau = any_number(random, tau_bounds);
+  primitive.kernels.centers = any(M, 1, center_bounds);
+  primitive.kernels.widths = any(M, 1, width_bounds);
   primitive.weights = any(M, D);
   for (Eigen::VectorXd* vector : {&primitive.goal, &primitive.start_position,
                                   &primitive.start_velocity, &primitive.start_acceleration})
@@ -114,7 +132,7 @@ TEST(PrimitiveFile, AppearsWholeOrNotAtAll) {
   const std::string kept = test::read_file(folder.path("kept.yaml"));
   primitive.weights(0, 0) = NAN;
   EXPECT_THAT(test::refusal([&] { write_primitive(folder.path("kept.yaml"), primitive); }),
-              HasSubstr("weights have an entry that is not finite"));
+              HasSubstr("weights: an entry is nan, must be in -1e+30 to 1e+30"));
   EXPECT_EQ(test::read_file(folder.path("kept.yaml")), kept);
   EXPECT_THAT(
       test::refusal([&] { write_primitive("/proc/none.yaml", test::random_primitive(random, 2)); }),
@@ -159,35 +177,19 @@ TEST(PrimitiveFile, IsReadAsItIsDocumented) {
   EXPECT_EQ(primitive.weights(1, 0), -30.0);
 }
 
-struct BadFile {
-  const char* name;
-  const char* from;
-  const char* to;
-  const char* message;  // what the error says behind the file's name
-};
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 class PrimitiveFileRefuses : public testing::TestWithParam<BadFile> {};
 
 TEST_P(PrimitiveFileRefuses, WithFileLineAndKey) {
-  const TempFolder folder;
-  const std::string path =
-      folder.write("bad.yaml", replaced(good_primitive, GetParam().from, GetParam().to));
-  EXPECT_THAT(test::refusal([&] { read_primitive(path); }),
-              StartsWith(path + std::string(GetParam().message)));
+  test::expect_refused(GetParam(), good_primitive, TempFolder(),
+                       [](const std::string& path) { read_primitive(path); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , PrimitiveFileRefuses,
     testing::Values(
-        BadFile{"NewerFormat", "primitive 1", "primitive 2",
-                ":1: key \"format\": \"seam-primitive 2\", must be seam-primitive 1 (a newer seam "
-                "has written this file)"},
+        BadFile{"NewerFormat", "primitive 1", "primitive 3",
+                ":1: key \"format\": \"seam-primitive 3\", must be seam-primitive 1 to 2 (a newer "
+                "seam has written this file)"},
         BadFile{"NewerFormatBeforeItsNewKeys", "1\nkind", "10\ncolour: blue\nkind",
                 ":1: key \"format\": \"seam-primitive 10\""},
         BadFile{"OtherFormat", "seam-primitive 1", "seam-scene 1",
@@ -231,7 +233,30 @@ INSTANTIATE_TEST_SUITE_P(
                 ":10: key \"velocity\": 1 numbers, must be 2"},
         BadFile{"ShortWidths", "[0.4, 0.3, 0.3]", "[0.4, 0.3]",
                 ":14: key \"widths\": 2 numbers, must be 3 (one per kernel)"},
-        BadFile{"ZeroWidth", "[0.4,", "[0,", ":1: primitive: a kernel width is not > 0"},
+        BadFile{"ZeroWidth", "[0.4,", "[0,",
+                ":1: primitive: widths: an entry is 0, must be in 1e-09 to 1e+09"},
+        BadFile{"TinyWidth", "[0.4,", "[1e-160,",
+                ":1: primitive: widths: an entry is 1e-160, must"},
+        BadFile{"FarCenter", "[1, 0.5,", "[1e200, 0.5,",
+                ":1: primitive: centers: an entry is 1e+200, must be in -1e+06 to 1e+06"},
+        BadFile{"HugeK", "K: 200", "K: 1e300",
+                ":1: primitive: K 1e+300, must be in 1e-06 to 100000"},
+        BadFile{"TinyAlpha", "alpha: 2", "alpha: 1e-300",
+                ":1: primitive: alpha 1e-300, must be in 1e-06 to 20"},
+        BadFile{"DenormalTau", "tau: 1.2", "tau: 1e-320", ":1: primitive: tau 9.99989e-321, must"},
+        BadFile{"ShortTau", "tau: 1.2", "tau: 1e-300",
+                ":1: primitive: tau 1e-300, must be in 1e-06 to 1e+09"},
+        BadFile{"HugeWeight", "[7, -1]", "[7, -1e31]",
+                ":1: primitive: weights: an entry is -1e+31, must be in -1e+30 to 1e+30"},
+        BadFile{"ReferenceWithoutItsCoordinates", "kind: ", "reference: [0, 0, 0, 1]\nkind: ",
+                ":2: key \"reference\": primitive: reference orientation 0 0 0 1, must have the "
+                "coordinates rx, ry and rz"},
+        BadFile{"ReferenceNotUnit", "kind: ", "reference: [0, 0, 1, 1]\nkind: ",
+                ":2: key \"reference\": quaternion of norm 1.414214, must be 1 within 0.001"},
+        BadFile{"ReferenceNotFinite", "kind: ", "reference: [0, .nan, 0, 1]\nkind: ",
+                ":2: key \"reference\": \".nan\", must be a finite number"},
+        BadFile{"ShortReference", "kind: ", "reference: [0, 0, 1]\nkind: ",
+                ":2: key \"reference\": 3 numbers, must be 4 (one per part x y z w)"},
         BadFile{"MissingRow", "  - [7, -1]\n", "",
                 ":15: key \"weights\": 2 rows, must be 3 (one per kernel)"},
         BadFile{"ShortRow", "[-30, 4]", "[-30]",
@@ -243,7 +268,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"WeightAList", "[7, -1]", "[7, [1]]",
                 ":18: key \"weights\": must be a finite number"},
         BadFile{"ExtraKey", "weights:", "colour: blue\nweights:",
-                ":15: key \"colour\": not known here, must be one of format, kind"},
+                ":15: key \"colour\": not known here, must be one of format, reference"},
         BadFile{"CutOff", "  - [7, -1]", "  - [7, -1", ":"},
         BadFile{"SecondDocument", "- [7, -1]\n", "- [7, -1]\n---\nformat: more\n",
                 ":19: not part of the document, which ends before this"},
@@ -252,7 +277,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"StrayBracket", "[7, -1]\n", "[7, -1]]\n", ":"},
         BadFile{"StrayBrackets", "format: ", ",", ":1: "},
         BadFile{"StrayBraceBeforeMore", "H: 14}", "H: 14}}", ":6: "}),
-    [](const auto& bad) { return bad.param.name; });
+    test::by_name);
 
 TEST(PrimitiveFile, RefusesWhatIsNotAFile) {
   const TempFolder folder;
@@ -279,8 +304,11 @@ TEST(PrimitiveFile, RefusesEveryBeginningOfAFile) {
 // Every kind of switch and entry, a primitive played twice, a start that moves.
 SequenceFile all_sorts(std::mt19937_64& random) {
   const auto number = [&] { return std::uniform_real_distribution<double>(0.1, 0.4)(random); };
-  const Primitive reach = test::random_primitive(random, 3, 8);
-  const Primitive wipe = test::random_primitive(random, 3, 12, Kind::rhythmic);
+  Primitive reach = test::random_primitive(random, 3, 8);
+  Primitive wipe = test::random_primitive(random, 3, 12, Kind::rhythmic);
+  if (random() % 2) reach.reference_orientation = any_orientation(random);
+  wipe.reference_orientation = reach.reference_orientation;
+  if (reach.reference_orientation) reach.coordinates = wipe.coordinates = {"rz", "ry", "rx"};
   SequenceFile file;
   file.sequence.then(reach).until(before_end(number()));
   file.sequence.then(wipe).enter(least_correction()).until(after_cycles(10.0 * number()));
@@ -295,7 +323,6 @@ SequenceFile all_sorts(std::mt19937_64& random) {
   for (Eigen::VectorXd* part :
        {&file.start->position, &file.start->velocity, &file.start->acceleration, &file.start->jerk})
     *part = Eigen::VectorXd::NullaryExpr(3, [&] { return any_number(random); });
-  file.reference = orientation({number(), number(), number()}, Eigen::Quaterniond::Identity());
   return file;
 }
 
@@ -304,10 +331,6 @@ void expect_same_bits(const SequenceFile& a, const SequenceFile& b) {
   EXPECT_TRUE(same_bits(a.sequence.start_delay(), b.sequence.start_delay()));
   EXPECT_TRUE(same_bits(a.start_state(), b.start_state()));
   EXPECT_EQ(a.start.has_value(), b.start.has_value());
-  ASSERT_EQ(a.reference.has_value(), b.reference.has_value());
-  if (a.reference) {
-    EXPECT_TRUE(same_bits(a.reference->coeffs(), b.reference->coeffs()));
-  }
   ASSERT_EQ(a.sequence.steps().size(), b.sequence.steps().size());
   for (std::size_t i = 0; i < a.sequence.steps().size(); ++i) {
     const Sequence::Step& one = a.sequence.steps()[i];
@@ -407,27 +430,114 @@ TEST(SequenceFile, IsReadAsItIsDocumented) {
   EXPECT_EQ(steps[3].until.value, 0.0);
 }
 
-// A demonstration with an orientation becomes rotation vectors about the sequence's reference.
-TEST(SequenceFile, TurnsOrientationsIntoCoordinatesAboutOneReference) {
+// The primitive as it was written before there were reference orientations, of an orientation.
+const std::string old_turn = replaced(
+    replaced(replaced(replaced(good_primitive, "\"x\", \"y\"", "rx, ry, rz"), "0.3, +1e-1",
+                      "0.3, 0.1, 0"),
+             "start:\n  position: [0, 0]\n  velocity: [0, 0]\n  acceleration: [0, 0]",
+             "start:\n  position: [0, 0, 0]\n  velocity: [0, 0, 0]\n  acceleration: [0, 0, 0]"),
+    "  - [1.5, 20]\n  - [-30, 4]\n  - [7, -1]",
+    "  - [1.5, 20, 0]\n  - [-30, 4, 0]\n  - [7, -1, 0]");
+
+std::string turn_about(const std::string& reference) {
+  return replaced(old_turn, "primitive 1\n", "primitive 2\nreference: [" + reference + "]\n");
+}
+
+TEST(PrimitiveFile, CarriesItsReferenceOrientation) {
   const TempFolder folder;
-  std::string csv = "time,qx,qy,qz,qw\n";
-  for (int i = 0; i <= 100; ++i) {
-    const double t = 0.01 * i;
-    csv += std::to_string(t) + ",0,0," + std::to_string(std::sin(0.5 * (0.2 + t))) + "," +
-           std::to_string(std::cos(0.5 * (0.2 + t))) + "\n";
+  const auto read = [&](const std::string& text) {
+    return read_primitive(folder.write("turn.yaml", text)).reference_orientation;
+  };
+  EXPECT_FALSE(read(old_turn));
+  EXPECT_EQ(read(turn_about("0.6, 0, 0, -0.8"))->coeffs(), Eigen::Vector4d(0.6, 0.0, 0.0, -0.8));
+  EXPECT_NEAR(read(turn_about("0.6001, 0, 0, 0.8"))->norm(), 1.0, 1e-15);
+  const std::string path = folder.path("turn.yaml");
+  write_primitive(path, read_primitive(path));
+  EXPECT_THAT(test::read_file(path), StartsWith("format: seam-primitive 2\nreference: ["));
+}
+
+// A sequence of what is there, and the reference orientations of its steps.
+class ReferenceOfASequence : public testing::Test {
+ protected:
+  ReferenceOfASequence() {
+    std::string csv = "time,qx,qy,qz,qw\n";
+    for (int i = 0; i <= 100; ++i) {
+      const double half = 0.5 * (0.2 + 0.01 * i);
+      csv += std::to_string(0.01 * i) + ",0,0," + std::to_string(std::sin(half)) + "," +
+             std::to_string(std::cos(half)) + "\n";
+    }
+    folder_.write("shown.csv", csv);
+    folder_.write("old.yaml", old_turn);
+    folder_.write("half.yaml", turn_about("0, 0, 0.6, 0.8"));
+    folder_.write("half_minus.yaml", turn_about("0, 0, -0.6, -0.8"));
+    folder_.write("none.yaml", turn_about("0, 0, 0, 1"));
   }
-  folder.write("turn.csv", csv);
-  const std::string text =
-      "format: seam-sequence 1\nprimitives: {turn: {demonstration: turn.csv}}\n"
-      "steps: [{play: turn}]\n";
-  const SequenceFile own = read_sequence(folder.write("own.yaml", text));
-  ASSERT_TRUE(own.reference);
-  EXPECT_NEAR(own.reference->z(), std::sin(0.1), 1e-5);
-  EXPECT_EQ(own.sequence.coordinates(), (std::vector<std::string>{"rx", "ry", "rz"}));
-  EXPECT_NEAR(own.sequence.steps()[0].primitive.goal(2), 1.0, 1e-5);
-  const SequenceFile given =
-      read_sequence(folder.write("given.yaml", text + "reference: [0, 0, 0, 1]\n"));
-  EXPECT_NEAR(given.sequence.steps()[0].primitive.goal(2), 1.2, 1e-5);
+
+  std::string write(const std::vector<std::string>& played, const std::string& reference = "") {
+    std::string text =
+        "format: seam-sequence 1\nprimitives:\n  shown: {demonstration: shown.csv}\n";
+    for (const char* name : {"old", "half", "half_minus", "none"})
+      if (std::count(played.begin(), played.end(), name))
+        text += "  " + std::string(name) + ": {file: " + name + ".yaml}\n";
+    text += "steps:\n";
+    for (const std::string& name : played) text += "  - {play: " + name + "}\n";
+    return folder_.write("task.yaml", text + reference);
+  }
+
+  SequenceFile read(const std::vector<std::string>& played, const std::string& reference = "") {
+    return read_sequence(write(played, reference));
+  }
+
+  std::string refused(const std::vector<std::string>& played, const std::string& reference = "") {
+    return test::refusal([&] { read(played, reference); });
+  }
+
+  static const Primitive& step(const SequenceFile& file, std::size_t i) {
+    return file.sequence.steps()[i].primitive;
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(ReferenceOfASequence, IsTheFirstSampleOfADemonstrationWhereNothingElseIsSaid) {
+  const SequenceFile file = read({"shown"});
+  EXPECT_EQ(file.sequence.coordinates(), (std::vector<std::string>{"rx", "ry", "rz"}));
+  EXPECT_NEAR(step(file, 0).reference_orientation->z(), std::sin(0.1), 1e-5);
+  EXPECT_NEAR(step(file, 0).goal(2), 1.0, 1e-5);
+}
+
+TEST_F(ReferenceOfASequence, IsWhatItSays) {
+  const SequenceFile file = read({"shown", "old"}, "reference: [0, 0, 0, 1]\n");
+  EXPECT_NEAR(step(file, 0).goal(2), 1.2, 1e-5);
+  EXPECT_EQ(step(file, 1).reference_orientation->w(), 1.0);
+  EXPECT_THAT(refused({"half"}, "reference: [0, 0, 0, 1]\n"),
+              HasSubstr("task.yaml:4: key \"half\": primitive: reference orientation 0 0 0.6 0.8, "
+                        "must be 0 0 0 1 (x y z w), the same for all"));
+}
+
+TEST_F(ReferenceOfASequence, IsThatOfItsPrimitiveFilesBeforeAnyDemonstration) {
+  const SequenceFile file = read({"shown", "half"});
+  EXPECT_EQ(step(file, 0).reference_orientation->z(), 0.6);
+  EXPECT_NEAR(step(file, 0).goal(2), 1.2 - 2.0 * std::asin(0.6), 1e-5);
+}
+
+TEST_F(ReferenceOfASequence, IsOneForAllThatIsJoined) {
+  EXPECT_EQ(step(read({"half", "half_minus"}), 1).reference_orientation->z(), 0.6);
+  EXPECT_FALSE(step(read({"old", "old"}), 1).reference_orientation);
+  EXPECT_THAT(refused({"half", "none"}),
+              HasSubstr("task.yaml:8: key \"play\": sequence: primitive 2: reference orientation "
+                        "0 0 0 1, must be 0 0 0.6 0.8 (x y z w), the same for all"));
+  EXPECT_THAT(refused({"half", "old"}),
+              HasSubstr("reference orientation unknown, must be 0 0 0.6"));
+  EXPECT_THAT(refused({"old", "half"}), HasSubstr("0 0 0.6 0.8, must be unknown"));
+}
+
+TEST_F(ReferenceOfASequence, ComesBackOnce) {
+  const SequenceFile file = read({"shown", "half"});
+  write_sequence(folder_.path("again.yaml"), file);
+  expect_same_bits(read_sequence(folder_.path("again.yaml")), file);
+  const std::string text = test::read_file(folder_.path("again.yaml"));
+  EXPECT_EQ(text.find("reference: "), text.rfind("reference: "));
 }
 
 class SequenceFileRefuses : public testing::TestWithParam<BadFile> {};
@@ -435,11 +545,8 @@ class SequenceFileRefuses : public testing::TestWithParam<BadFile> {};
 TEST_P(SequenceFileRefuses, WithFileLineAndKey) {
   const TempFolder folder;
   write_parts(folder);
-  const std::string path =
-      folder.write("bad.yaml", replaced(good_sequence, GetParam().from, GetParam().to));
-  EXPECT_THAT(
-      test::refusal([&] { read_sequence(path); }),
-      testing::AllOf(StartsWith(path), HasSubstr("bad.yaml" + std::string(GetParam().message))));
+  test::expect_refused(GetParam(), good_sequence, folder,
+                       [](const std::string& path) { read_sequence(path); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -496,8 +603,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"ShortReference", "start_after: 0", "reference: [0, 0, 1]",
                 ":5: key \"reference\": 3 numbers, must be 4 (one per part x y z w)"},
         BadFile{"ReferenceNotUnit", "start_after: 0", "reference: [0, 0, 1, 1]",
-                ":5: key \"reference\": quaternion of norm 1.414214, must be 1 within 0.001"}),
-    [](const auto& bad) { return bad.param.name; });
+                ":5: key \"reference\": quaternion of norm 1.414214, must be 1 within 0.001"},
+        BadFile{"ReferenceOfNothing", "start_after: 0", "reference: [0, 0, 0, 1]",
+                ":5: key \"reference\": the primitives have no coordinates rx, ry and rz"}),
+    test::by_name);
 
 TEST(SequenceFile, RefusesStepsThatAreNoList) {
   const TempFolder folder;

@@ -337,6 +337,54 @@ TEST(OrientationDemonstration, BecomesThreeCoordinates) {
   EXPECT_EQ(turned.acceleration.col(4), demo.acceleration.col(5));
 }
 
+TEST(OrientationDemonstration, CarriesItsReferenceToThePrimitive) {
+  const Quaterniond q0(0.8, 0.0, 0.6, 0.0);
+  const Demonstration turned = with_rotation_vector(turning(1.0, q0), q0);
+  EXPECT_EQ(turned.reference_orientation->coeffs(), q0.coeffs());
+  EXPECT_EQ(turned.resample(50.0).reference_orientation->coeffs(), q0.coeffs());
+  EXPECT_EQ(learn(turned).reference_orientation->coeffs(), q0.coeffs());
+  Primitive other = learn(turned);
+  other.reference_orientation = Quaterniond::Identity();
+  EXPECT_THAT(test::refusal([&] { assess(turned, other); }), HasSubstr("must be 0 0 0 1"));
+  Demonstration bad = turned;
+  bad.coordinates[1] = "roll";
+  EXPECT_THAT(test::refusal([&] { learn(bad); }), HasSubstr("must have the coordinates rx, ry"));
+  EXPECT_THAT(
+      test::refusal([&] { with_rotation_vector(turning(1.0, q0), Quaterniond(1, 1, 0, 0)); }),
+      HasSubstr("of norm 1.41421356, must be 1 within 1e-9"));
+}
+
+// About another reference it is the same motion: q, ω and ω̇ stay.
+TEST(OrientationDemonstration, CanBeTurnedAboutAnotherReference) {
+  std::mt19937_64 random(seed + 10);
+  const Quaterniond q0 = random_orientation(random);
+  const Quaterniond q1 = orientation({0.3, -0.2, 0.4}, q0);
+  const Demonstration from = with_rotation_vector(turning(2.0, q0), q0);
+  const Demonstration to = with_reference(from, q1);
+  EXPECT_EQ(to.reference_orientation->coeffs(), q1.coeffs());
+  EXPECT_EQ(to.position.col(0), from.position.col(0));
+  EXPECT_EQ(to.acceleration.col(4), from.acceleration.col(4));
+  EXPECT_LT((to.position - with_rotation_vector(turning(2.0, q0), q1).position).norm(), 1e-12);
+  const auto state = [](const Demonstration& demo, int i) {
+    OrientationState at;
+    EXPECT_TRUE(to_orientation({demo.position.row(i).segment<3>(1).transpose(),
+                                demo.velocity.row(i).segment<3>(1).transpose(),
+                                demo.acceleration.row(i).segment<3>(1).transpose()},
+                               *demo.reference_orientation, at));
+    return at;
+  };
+  for (const int i : {0, 37, 100}) {
+    EXPECT_LT((state(from, i).velocity - state(to, i).velocity).norm(), 1e-12);
+    EXPECT_LT((state(from, i).acceleration - state(to, i).acceleration).norm(), 1e-11);
+  }
+  EXPECT_THAT(test::refusal([&] {
+                with_reference(from, orientation({-1.9, 0.0, -2.5}, q0));
+              }),
+              HasSubstr("rad from the reference orientation, must be within pi"));
+  EXPECT_THAT(test::refusal([&] { with_reference(turning(1.0, q0), q1); }),
+              HasSubstr("has no reference orientation"));
+}
+
 TEST(OrientationDemonstration, MayEndAHalfTurnFromItsReferenceAndNotFurther) {
   const Quaterniond q0 = Quaterniond::Identity();
   EXPECT_EQ(with_rotation_vector(turning(M_PI, q0), q0).samples(), 101);

@@ -1,9 +1,12 @@
+#include <array>
+#include <functional>
 #include <limits>
 
 #include <gmock/gmock.h>
 
 #include "tests/support.hpp"
 #include <seam/basis.hpp>
+#include <seam/execution.hpp>
 #include <seam/primitive.hpp>
 
 namespace seam {
@@ -143,16 +146,18 @@ TEST(Primitive, RefusesWhatCannotBeExecuted) {
     spoil(bad);
     return refusal([&] { bad.validate(); });
   };
-  EXPECT_EQ(message([](Primitive& p) { p.tau = 0.0; }), "primitive: tau 0.000000, must be > 0");
-  EXPECT_EQ(message([](Primitive& p) { p.gains.K = -1.0; }), "primitive: K -1.000000, must be > 0");
+  EXPECT_EQ(message([](Primitive& p) { p.tau = 0.0; }),
+            "primitive: tau 0, must be in 1e-06 to 1e+09");
+  EXPECT_EQ(message([](Primitive& p) { p.gains.K = -1.0; }),
+            "primitive: K -1, must be in 1e-06 to 100000");
   EXPECT_EQ(message([](Primitive& p) { p.goal(0) = NAN; }),
-            "primitive: goal has an entry that is not finite");
+            "primitive: goal: an entry is nan, must be in -1e+30 to 1e+30");
   EXPECT_EQ(message([](Primitive& p) { p.weights(3, 1) = INFINITY; }),
-            "primitive: weights have an entry that is not finite");
+            "primitive: weights: an entry is inf, must be in -1e+30 to 1e+30");
   EXPECT_EQ(message([](Primitive& p) { p.weights.resize(3, 2); }),
             "primitive: weights are 3 x 2, must be 10 x 2");
   EXPECT_EQ(message([](Primitive& p) { p.kernels.widths(4) = 0.0; }),
-            "primitive: a kernel width is not > 0");
+            "primitive: widths: an entry is 0, must be in 1e-09 to 1e+09");
   EXPECT_EQ(message([](Primitive& p) {
               p.coordinates = {"a", "a"};
             }),
@@ -161,6 +166,82 @@ TEST(Primitive, RefusesWhatCannotBeExecuted) {
             "primitive: 1 coordinate names for 2 goals");
   EXPECT_EQ(message([](Primitive& p) { p.start_velocity.resize(3); }),
             "primitive: start_velocity has 3 entries, must have 2");
+  EXPECT_EQ(message([](Primitive& p) { p.reference_orientation = Eigen::Quaterniond::Identity(); }),
+            "primitive: reference orientation 0 0 0 1, must have the coordinates rx, ry and rz");
+  EXPECT_EQ(
+      message([](Primitive& p) { p.reference_orientation = Eigen::Quaterniond(1.001, 0, 0, 0); }),
+      "primitive: reference orientation 0 0 0 1.001 of norm 1.001, must be 1 within 1e-9");
+  EXPECT_THAT(
+      message([](Primitive& p) { p.reference_orientation = Eigen::Quaterniond(NAN, 0, 0, 0); }),
+      testing::HasSubstr("of norm nan"));
+}
+
+// What was seen to give NaN or infinity when it was played, or a motion that grows without end.
+TEST(Primitive, RefusesWhatWouldNotStayFinite) {
+  std::mt19937_64 random(3);
+  const Primitive good = test::random_primitive(random, 2);
+  const std::function<void(Primitive&)> spoilers[] = {
+      [](Primitive& p) { p.kernels.widths(2) = 1e-160; },
+      [](Primitive& p) { p.kernels.centers(2) = 1e200; },
+      [](Primitive& p) { p.gains.K = 1e20; },
+      [](Primitive& p) { p.gains.D = 1e300; },
+      [](Primitive& p) { p.alpha = 1e-300; },
+      [](Primitive& p) { p.tau = 1e-9; },
+      [](Primitive& p) { p.tau = 1e300; },
+  };
+  for (const auto& spoil : spoilers) {
+    Primitive bad = good;
+    spoil(bad);
+    EXPECT_THAT(refusal([&] { bad.validate(); }), testing::HasSubstr("must be in")) << bad.tau;
+  }
+}
+
+// At one end of its bounds or the other in every number, or between.
+Primitive primitive_at_the_bounds(std::mt19937_64& random, Kind kind) {
+  const auto at = [&](const Bounds& bounds, double inside) {
+    const auto which = random() % 3;
+    return which == 0 ? bounds.least : which == 1 ? bounds.largest : inside;
+  };
+  Primitive p = test::random_primitive(random, 2, 10, kind);
+  p.gains = {at(gain_bounds, p.gains.K), at(gain_bounds, p.gains.D), at(gain_bounds, p.gains.H)};
+  p.alpha = at(alpha_bounds, p.alpha);
+  p.tau = at(tau_bounds, p.tau);
+  for (double& center : p.kernels.centers) center = at(center_bounds, center);
+  for (double& width : p.kernels.widths) width = at(width_bounds, width);
+  for (double& weight : p.weights.reshaped()) weight = at(value_bounds, weight);
+  for (Eigen::VectorXd* vector :
+       {&p.goal, &p.start_position, &p.start_velocity, &p.start_acceleration})
+    for (double& value : *vector) value = at(value_bounds, value);
+  return p;
+}
+
+bool is_finite(const Sample& at) {
+  return at.position.allFinite() && at.velocity.allFinite() && at.acceleration.allFinite() &&
+         at.jerk.allFinite();
+}
+
+TEST(Primitive, StaysFiniteAtTheBoundsForTwiceItsTimeWithEveryMethod) {
+  constexpr unsigned seed = 4;
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < 400; ++i) {
+    const Primitive primitive =
+        primitive_at_the_bounds(random, random() % 2 ? Kind::rhythmic : Kind::discrete);
+    Sample start(2);
+    start.position = primitive.start_position;
+    start.velocity = start.jerk = primitive.start_velocity;
+    start.acceleration = primitive.start_acceleration;
+    for (const Join method : all_joins) {
+      const int steps = std::array{1, 7, 200}[random() % 3];
+      Execution execution(primitive);
+      execution.reinitialise(start, execution.basis().start_phase(), method);
+      bool finite = is_finite(execution.state());
+      for (int k = 0; k < steps; ++k) {
+        execution.step(2.0 * primitive.tau / steps);
+        finite = finite && is_finite(execution.state());
+      }
+      EXPECT_TRUE(finite) << "seed " << seed << ", case " << i << ", " << to_string(method);
+    }
+  }
 }
 
 }  // namespace

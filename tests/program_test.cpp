@@ -4,16 +4,15 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/run_program.hpp"
-#include "tests/support.hpp"
+#include "tests/refusals.hpp"
 
 namespace seam {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::StartsWith;
 
+using test::BadCall;
 using test::Outcome;
 using test::run;
 
@@ -65,9 +64,7 @@ TEST(Program, SummaryHoldsTheFiguresOfEveryRunAndJoin) {
 
 TEST(Program, DrawsScenesWithAnyTitleIntoAnyFolder) {
   const TempFolder folder;
-  std::string scene = test::read_file(std::string(SEAM_SCENES) + "/line.yaml");
-  for (std::size_t at = 0; (at = scene.find("../assets")) != std::string::npos;)
-    scene.replace(at, 9, SEAM_ASSETS);
+  std::string scene = test::scene_text("line");
   const std::string title = "title: ";
   scene.insert(scene.find(title) + title.size(), "The arm's $1 \\\"ramps\\\" of_joint ");
   const std::string path = folder.write("odd name.yaml", scene);
@@ -130,19 +127,10 @@ TEST(Program, HelpsWithExitCodeZero) {
   }
 }
 
-struct BadCall {
-  const char* name;
-  const char* arguments;
-  const char* message;
-};
-
 class ProgramRefuses : public testing::TestWithParam<BadCall> {};
 
 TEST_P(ProgramRefuses, WithOneLineAndExitCodeTwo) {
-  const Outcome outcome = run(GetParam().arguments);
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.output, AllOf(StartsWith("seam: "), HasSubstr(GetParam().message)));
-  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+  test::expect_refused(GetParam(), TempFolder());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -160,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoFolder", "bench line --out ''", "--out: is empty"},
         BadCall{"SceneTwice", "bench line line", "scene \"line\": given twice"},
         BadCall{"UnwritableFolder", "bench line --out /proc/seam", "/proc/seam"}),
-    [](const auto& bad) { return bad.param.name; });
+    test::by_name);
 
 }  // namespace
 }  // namespace seam

@@ -6,12 +6,13 @@
 
 #include "bench/compare.hpp"
 #include "scenes/play.hpp"
-#include "tests/support.hpp"
+#include "tests/refusals.hpp"
 #include <seam/metrics.hpp>
 
 namespace seam {
 namespace {
 
+using test::BadFile;
 using testing::HasSubstr;
 
 const std::string line = std::string(SEAM_SCENES) + "/line.yaml";
@@ -77,75 +78,52 @@ TEST(LineScene, GivesTheSameBitsTwiceAndWithAnyNumberOfJobs) {
   }
 }
 
-// A scene that works, in which one text is replaced by another.
-std::string spoiled(const std::string& from, const std::string& to) {
-  std::string text = test::read_file(line);
-  const auto asset = [&](const std::string& name) {
-    const auto at = text.find("../assets");
-    text.replace(at, std::strlen("../assets"), name);
-  };
-  for (int i = 0; i < 3; ++i) asset(SEAM_ASSETS);
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-struct BadScene {
-  const char* name;
-  const char* from;
-  const char* to;
-  const char* message;  // a part that it must have, from the file's name on
-};
-
-class SceneRefuses : public testing::TestWithParam<BadScene> {};
+class SceneRefuses : public testing::TestWithParam<BadFile> {};
 
 TEST_P(SceneRefuses, WithFileLineAndKey) {
-  const TempFolder folder;
-  const std::string path = folder.write("bad.yaml", spoiled(GetParam().from, GetParam().to));
-  EXPECT_THAT(test::refusal([&] { Scene::read(path); }),
-              HasSubstr("bad.yaml" + std::string(GetParam().message)));
+  test::expect_refused(GetParam(), test::scene_text("line"), TempFolder(),
+                       [](const std::string& path) { Scene::read(path); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , SceneRefuses,
     testing::Values(
-        BadScene{"Format", "seam-scene 1", "seam-scene 7",
-                 ":2: key \"format\": \"seam-scene 7\", must be seam-scene 1"},
-        BadScene{"NoTitle", "title:", "#", ":2: needs the key \"title\""},
-        BadScene{"UnknownKey", "settle:", "settel:",
-                 ":19: key \"settel\": not known here, must be one of format, title"},
-        BadScene{"NoUrdf", "pa10.urdf", "pa11.urdf", ":6: key \"urdf\": "},
-        BadScene{"UnknownJoint", "S2: 0.5", "S9: 0.5", ":7: key \"S9\": "},
-        BadScene{"StartOutOfReach", "S2: 0.5", "S2: 2.5", ":7: key \"S2\": 2.5, must be in -1.64"},
-        BadScene{"StartNotANumber", "S2: 0.5", "S2: half",
-                 ":7: key \"S2\": \"half\", must be a finite number"},
-        BadScene{"StartTwice", "S2: 0.5", "E1: 0.5", ":7: key \"E1\": appears twice"},
-        BadScene{"NoDemonstration", "ramp_up.csv", "ramp_op.csv", ":12: key \"demonstration\": "},
-        BadScene{"TooManyKernels", "kernels: 10}", "kernels: 60}", ":12: key \"demonstration\": "},
-        BadScene{"FewKernels", "kernels: 10}", "kernels: 1}",
-                 ":12: key \"kernels\": \"1\", must be a whole number >= 2"},
-        BadScene{"UnknownPrimitive", "play: down", "play: dwon",
-                 ":16: key \"play\": \"dwon\", is not among the primitives"},
-        BadScene{"SwitchTooEarly", "before_end: 0.0", "before_end: 1.5",
-                 ":15: key \"until\": sequence: primitive 1: its"},
-        BadScene{"TwoSwitches", "before_end: 0.0", "before_end: 0.0, after: 1.0",
-                 ":15: key \"until\": must have one of after, before_end, at_phase"},
-        BadScene{"ZeroTick", "dt: 0.001", "dt: 0", ":18: key \"dt\": 0, must be > 0"},
-        BadScene{"LongTick", "dt: 0.001", "dt: 10",
-                 ":18: key \"dt\": 10, must be in 1e-6 to 0.1 s"},
-        BadScene{"UnstableTick", "dt: 0.001", "dt: 0.09",
-                 ":18: key \"dt\": 0.09, is too long for the control gains"},
-        BadScene{"EndlessSettling", "settle: 1.0", "settle: 1e12",
-                 ":19: key \"settle\": 1e12, must be <= 3600 s"},
-        BadScene{"FigureOfAJointAtRest", "figure: E1", "figure: S1",
-                 ":20: key \"figure\": \"S1\", is moved by no primitive"},
-        BadScene{"NotFinite", "settle: 1.0", "settle: .inf",
-                 ":19: key \"settle\": \".inf\", must be a finite number"},
-        BadScene{"FigureOfNoJoint", "figure: E1", "figure: E7", ":20: key \"figure\": "},
-        BadScene{"NotYaml", "primitives:", "primitives: {", ":13: not YAML: "},
-        BadScene{"AList", "sequence:\n", "sequence: [1]\nsettings:\n",
-                 ":10: key \"settings\": not known here"}),
-    [](const auto& bad) { return bad.param.name; });
+        BadFile{"Format", "seam-scene 1", "seam-scene 7",
+                ":2: key \"format\": \"seam-scene 7\", must be seam-scene 1"},
+        BadFile{"NoTitle", "title:", "#", ":2: needs the key \"title\""},
+        BadFile{"UnknownKey", "settle:", "settel:",
+                ":19: key \"settel\": not known here, must be one of format, title"},
+        BadFile{"NoUrdf", "pa10.urdf", "pa11.urdf", ":6: key \"urdf\": "},
+        BadFile{"UnknownJoint", "S2: 0.5", "S9: 0.5", ":7: key \"S9\": "},
+        BadFile{"StartOutOfReach", "S2: 0.5", "S2: 2.5", ":7: key \"S2\": 2.5, must be in -1.64"},
+        BadFile{"StartNotANumber", "S2: 0.5", "S2: half",
+                ":7: key \"S2\": \"half\", must be a finite number"},
+        BadFile{"StartTwice", "S2: 0.5", "E1: 0.5", ":7: key \"E1\": appears twice"},
+        BadFile{"NoDemonstration", "ramp_up.csv", "ramp_op.csv", ":12: key \"demonstration\": "},
+        BadFile{"TooManyKernels", "kernels: 10}", "kernels: 60}", ":12: key \"demonstration\": "},
+        BadFile{"FewKernels", "kernels: 10}", "kernels: 1}",
+                ":12: key \"kernels\": \"1\", must be a whole number >= 2"},
+        BadFile{"UnknownPrimitive", "play: down", "play: dwon",
+                ":16: key \"play\": \"dwon\", is not among the primitives"},
+        BadFile{"SwitchTooEarly", "before_end: 0.0", "before_end: 1.5",
+                ":15: key \"until\": sequence: primitive 1: its"},
+        BadFile{"TwoSwitches", "before_end: 0.0", "before_end: 0.0, after: 1.0",
+                ":15: key \"until\": must have one of after, before_end, at_phase"},
+        BadFile{"ZeroTick", "dt: 0.001", "dt: 0", ":18: key \"dt\": 0, must be > 0"},
+        BadFile{"LongTick", "dt: 0.001", "dt: 10", ":18: key \"dt\": 10, must be in 1e-6 to 0.1 s"},
+        BadFile{"UnstableTick", "dt: 0.001", "dt: 0.09",
+                ":18: key \"dt\": 0.09, is too long for the control gains"},
+        BadFile{"EndlessSettling", "settle: 1.0", "settle: 1e12",
+                ":19: key \"settle\": 1e12, must be <= 3600 s"},
+        BadFile{"FigureOfAJointAtRest", "figure: E1", "figure: S1",
+                ":20: key \"figure\": \"S1\", is moved by no primitive"},
+        BadFile{"NotFinite", "settle: 1.0", "settle: .inf",
+                ":19: key \"settle\": \".inf\", must be a finite number"},
+        BadFile{"FigureOfNoJoint", "figure: E1", "figure: E7", ":20: key \"figure\": "},
+        BadFile{"NotYaml", "primitives:", "primitives: {", ":13: not YAML: "},
+        BadFile{"AList", "sequence:\n", "sequence: [1]\nsettings:\n",
+                ":10: key \"settings\": not known here"}),
+    test::by_name);
 
 TEST(Scene, RefusesWhatIsNotAFile) {
   const TempFolder folder;

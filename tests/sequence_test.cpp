@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support.hpp"
-#include <seam/sequence.hpp>
+#include <seam/sequencer.hpp>
 
 namespace seam {
 namespace {
@@ -55,7 +55,36 @@ TEST(Sequence, RefusesWhatCannotBePlayed) {
   EXPECT_EQ(refusal([&] { Sequence().then(rhythm).enter(from_phase(NAN)); }),
             "sequence: primitive 1: its entry phase is not finite");
   primitive.tau = -1.0;
-  EXPECT_EQ(refusal([&] { Sequence().then(primitive); }), "primitive: tau -1.000000, must be > 0");
+  EXPECT_EQ(refusal([&] { Sequence().then(primitive); }),
+            "primitive: tau -1, must be in 1e-06 to 1e+09");
+}
+
+// Rotation vectors about two reference orientations look alike, and mean different things.
+TEST(Sequence, RefusesAnotherReferenceOrientation) {
+  std::mt19937_64 random(16);
+  Primitive first = test::random_primitive(random, 3);
+  first.coordinates = {"rx", "ry", "rz"};
+  Primitive second = first;
+  first.reference_orientation = Eigen::Quaterniond(0.8, 0.0, 0.0, 0.6);
+  second.reference_orientation = Eigen::Quaterniond(-0.8, 0.0, 0.0, -0.6);
+  Sequence sequence;
+  sequence.then(first).then(second);
+  EXPECT_EQ(sequence.steps()[1].primitive.reference_orientation->w(), 0.8);
+  second.reference_orientation = Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0);
+  const std::string differs =
+      "reference orientation 0.6 0 0 0.8, must be 0 0 0.6 0.8 (x y z w), the same for all";
+  EXPECT_EQ(refusal([&] { sequence.then(second); }), "sequence: primitive 3: " + differs);
+  Sequencer sequencer(sequence, Join::dmp3, Sample(3));
+  const Sequence other = Sequence().then(second);
+  EXPECT_EQ(refusal([&] { sequencer.append(other); }), "sequencer: " + differs);
+  EXPECT_EQ(refusal([&] { sequencer.replace(other); }), "sequencer: " + differs);
+  second.reference_orientation.reset();
+  EXPECT_EQ(refusal([&] { sequence.then(second); }),
+            "sequence: primitive 3: reference orientation unknown, must be 0 0 0.6 0.8 (x y z w), "
+            "the same for all");
+  EXPECT_EQ(refusal([&] { Sequence().then(second).then(first); }),
+            "sequence: primitive 2: reference orientation 0 0 0.6 0.8, must be unknown (x y z w), "
+            "the same for all");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
 #include <seam/learn.hpp>
+#include <seam/orientation.hpp>
 
 namespace seam {
 
@@ -65,6 +66,7 @@ LearnReport assess(const Demonstration& demo, const Primitive& primitive) {
   primitive.validate();
   if (demo.coordinates != primitive.coordinates)
     throw Error(demo.source, "coordinates differ from the primitive's, must be the same");
+  require_same_reference(demo.source, primitive.reference_orientation, demo.reference_orientation);
   LearnReport report{};
   fit_figures(demo, primitive, report);
   const Eigen::ArrayXXd error = roll_out(demo, primitive) - demo.position;

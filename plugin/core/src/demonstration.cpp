@@ -5,6 +5,7 @@
 #include "smoothing_spline.hpp"
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>
+#include <seam/orientation.hpp>
 #include <seam/table.hpp>
 
 namespace seam {
@@ -140,6 +141,7 @@ void Demonstration::validate() const {
       throw Error(source, "time, position, velocity and acceleration differ in size");
   if (!velocity.allFinite() || !acceleration.allFinite())
     throw Error(source, "a velocity or acceleration is not finite");
+  require_reference(source, coordinates, reference_orientation);
 }
 
 void Demonstration::require_coordinates(const std::vector<std::string>& names) const {
@@ -189,7 +191,8 @@ Demonstration Demonstration::resample(double rate) const {
                      Eigen::MatrixXd(N, dimensions()),
                      Eigen::MatrixXd(N, dimensions()),
                      Eigen::MatrixXd(N, dimensions()),
-                     source};
+                     source,
+                     reference_orientation};
   const Eigen::MatrixXd jerk = slopes(time, acceleration);
   Eigen::Index i = 0;
   for (Eigen::Index k = 0; k < N; ++k) {

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "learning.hpp"
 #include "least_squares.hpp"
+#include "shown.hpp"
 #include <seam/basis.hpp>
 #include <seam/error.hpp>
 #include <seam/learn.hpp>
@@ -19,12 +19,6 @@ namespace {
 
 constexpr int most_kernels = 100;
 constexpr double widths_tried[] = {0.5, 0.75, 1.0, 1.5};
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 void require_setting(bool holds, const std::string& name, double value, const std::string& limit) {
   if (!holds) throw Error("learning", name + " " + shown(value) + ", must be " + limit);
@@ -138,6 +132,7 @@ Primitive learn_kernels(const Demonstration& demo, const Eigen::VectorXd& goal, 
   primitive.start_velocity = demo.velocity.topRows<1>().transpose();
   primitive.start_acceleration = demo.acceleration.topRows<1>().transpose();
   primitive.weights = weights(demo, primitive, settings);
+  primitive.reference_orientation = demo.reference_orientation;
   primitive.validate();
   return primitive;
 }

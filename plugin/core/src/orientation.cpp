@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "shown.hpp"
 #include <seam/error.hpp>
 #include <seam/orientation.hpp>
 
@@ -14,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double norm_tolerance = 1e-3;
 constexpr double beyond = M_PI + 1e-9;  // [rad] a half turn itself is still within
 constexpr double no_turn = 1e-100;      // below it squares would underflow
+constexpr double same_angle = 1e-8;     // [rad] between references that are one
+constexpr std::array<const char*, 3> axes{"rx", "ry", "rz"};
 
 // With θ² = u: b = (1 − cos θ)/u, c = (θ − sin θ)/θ³ and their slopes b'/θ, c'/θ.
 struct Coefficients {
@@ -86,12 +90,16 @@ struct Columns {
   Eigen::Index x, y, z, w;
 };
 
+Eigen::Index place_of(const std::vector<std::string>& coordinates, const char* name) {
+  return std::find(coordinates.begin(), coordinates.end(), name) - coordinates.begin();
+}
+
 Eigen::Index column(const Demonstration& demo, const char* name) {
-  const auto found = std::find(demo.coordinates.begin(), demo.coordinates.end(), name);
-  if (found == demo.coordinates.end())
+  const Eigen::Index found = place_of(demo.coordinates, name);
+  if (found == static_cast<Eigen::Index>(demo.coordinates.size()))
     throw Error(demo.source, std::string("no column \"") + name +
                                  "\", an orientation must have qx, qy, qz and qw");
-  return found - demo.coordinates.begin();
+  return found;
 }
 
 Columns orientation_columns(const Demonstration& demo) {
@@ -100,6 +108,12 @@ Columns orientation_columns(const Demonstration& demo) {
 
 std::string sample_name(const Demonstration& demo, Eigen::Index i) {
   return demo.source + ": sample " + std::to_string(i + 1);
+}
+
+void require_within_pi(const Demonstration& demo, Eigen::Index i, double angle) {
+  if (!(angle <= beyond))
+    throw Error(sample_name(demo, i), "turned by " + std::to_string(angle) +
+                                          " rad from the reference orientation, must be within pi");
 }
 
 Quaterniond sample_orientation(const Demonstration& demo, const Columns& at, Eigen::Index i) {
@@ -120,10 +134,7 @@ Eigen::MatrixXd rotation_vectors(const Demonstration& demo, const Quaterniond& q
     last = with_sign(last.dot(turned), turned);
     vectors.row(i) = signed_vector(last);
     const double angle = vectors.row(i).norm();
-    if (!(angle <= beyond))
-      throw Error(sample_name(demo, i),
-                  "turned by " + std::to_string(angle) +
-                      " rad from the reference orientation, must be within pi");
+    require_within_pi(demo, i, angle);
   }
   return vectors;
 }
@@ -146,6 +157,12 @@ void append(Demonstration& to, const Demonstration& from, Eigen::Index column) {
   to.velocity.col(at) = from.velocity.col(column);
   to.acceleration.col(at) = from.acceleration.col(column);
   to.coordinates.push_back(name);
+}
+
+std::string text_of(const std::optional<Quaterniond>& q) {
+  if (!q) return "unknown";
+  return shown(q->x(), 9) + " " + shown(q->y(), 9) + " " + shown(q->z(), 9) + " " +
+         shown(q->w(), 9);
 }
 
 }  // namespace
@@ -201,6 +218,7 @@ Quaterniond first_orientation(const Demonstration& demo) {
 
 Demonstration with_rotation_vector(const Demonstration& demo, const Quaterniond& q0,
                                    const DerivativeSettings& settings) {
+  require_reference(demo.source, {axes.begin(), axes.end()}, q0);
   const Columns at = orientation_columns(demo);
   const Demonstration turned = Demonstration::from_positions({"rx", "ry", "rz"}, demo.time,
                                                              rotation_vectors(demo, q0), settings);
@@ -211,7 +229,57 @@ Demonstration with_rotation_vector(const Demonstration& demo, const Quaterniond&
     else if (c != at.y && c != at.z && c != at.w)
       append(result, demo, c);
   }
+  result.reference_orientation = q0;
   return result;
+}
+
+Demonstration with_reference(const Demonstration& demo, const Quaterniond& q0) {
+  demo.validate();
+  if (!demo.reference_orientation)
+    throw Error(demo.source, "has no reference orientation, must have one to get another");
+  require_reference(demo.source, demo.coordinates, q0);
+  Demonstration result = demo;
+  result.reference_orientation = q0;
+  std::array<Eigen::Index, 3> at{};
+  for (std::size_t k = 0; k < 3; ++k) at[k] = place_of(demo.coordinates, axes[k]);
+  RotationState to;
+  for (Eigen::Index i = 0; i < demo.position.rows(); ++i) {
+    const RotationState from{demo.position(i, at), demo.velocity(i, at), demo.acceleration(i, at)};
+    OrientationState turned;
+    require_within_pi(demo, i, from.vector.norm());
+    (void)to_orientation(from, *demo.reference_orientation, turned);
+    (void)to_rotation(turned, q0, to);
+    require_within_pi(demo, i, to.vector.norm());
+    result.position(i, at) = to.vector;
+    result.velocity(i, at) = to.velocity;
+    result.acceleration(i, at) = to.acceleration;
+  }
+  return result;
+}
+
+bool has_rotation_vector(const std::vector<std::string>& coordinates) {
+  return std::all_of(axes.begin(), axes.end(), [&](const char* axis) {
+    return std::count(coordinates.begin(), coordinates.end(), axis) > 0;
+  });
+}
+
+void require_reference(const std::string& place, const std::vector<std::string>& coordinates,
+                       const std::optional<Quaterniond>& reference) {
+  if (!reference) return;
+  if (!(std::abs(reference->norm() - 1.0) <= unit_tolerance))
+    throw Error(place, "reference orientation " + text_of(reference) + " of norm " +
+                           shown(reference->norm(), 9) + ", must be 1 within 1e-9");
+  if (!has_rotation_vector(coordinates))
+    throw Error(place, "reference orientation " + text_of(reference) +
+                           ", must have the coordinates rx, ry and rz");
+}
+
+void require_same_reference(const std::string& place, const std::optional<Quaterniond>& expected,
+                            const std::optional<Quaterniond>& found) {
+  if (!expected && !found) return;
+  if (expected && found && rotation_vector(*found, *expected).norm() <= same_angle) return;
+  throw Error(place, "reference orientation " + text_of(found) + ", must be " + text_of(expected) +
+                         " (x y z w), the same for all");
 }
 
 }  // namespace seam

@@ -1,6 +1,8 @@
 #include <set>
 
+#include "shown.hpp"
 #include <seam/error.hpp>
+#include <seam/orientation.hpp>
 #include <seam/primitive.hpp>
 
 namespace seam {
@@ -38,15 +40,26 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw Error("primitive", what);
 }
 
-void require_positive(double value, const std::string& name) {
-  require(std::isfinite(value) && value > 0.0,
-          name + " " + std::to_string(value) + ", must be > 0");
+std::string range_of(const Bounds& bounds) {
+  return shown(bounds.least) + " to " + shown(bounds.largest);
 }
 
-void require_vector(const Eigen::VectorXd& value, Eigen::Index size, const std::string& name) {
+void require_within(double value, const Bounds& bounds, const std::string& name) {
+  require(bounds.hold(value), name + " " + shown(value) + ", must be in " + range_of(bounds));
+}
+
+void require_entries(const Eigen::Ref<const Eigen::MatrixXd>& values, const Bounds& bounds,
+                     const std::string& name) {
+  for (const double value : values.reshaped())
+    require(bounds.hold(value),
+            name + ": an entry is " + shown(value) + ", must be in " + range_of(bounds));
+}
+
+void require_vector(const Eigen::VectorXd& value, Eigen::Index size, const Bounds& bounds,
+                    const std::string& name) {
   require(value.size() == size, name + " has " + std::to_string(value.size()) +
                                     " entries, must have " + std::to_string(size));
-  require(value.allFinite(), name + " has an entry that is not finite");
+  require_entries(value, bounds, name);
 }
 
 }  // namespace
@@ -59,24 +72,24 @@ void Primitive::validate() const {
                                           " goals");
   const std::set<std::string> names(coordinates.begin(), coordinates.end());
   require(names.size() == size, "coordinate names repeat");
-  require_positive(gains.K, "K");
-  require_positive(gains.D, "D");
-  require_positive(gains.H, "H");
-  require_positive(alpha, "alpha");
-  require_positive(tau, "tau");
+  require_within(gains.K, gain_bounds, "K");
+  require_within(gains.D, gain_bounds, "D");
+  require_within(gains.H, gain_bounds, "H");
+  require_within(alpha, alpha_bounds, "alpha");
+  require_within(tau, tau_bounds, "tau");
   require(kernels.count() >= 2, "fewer than 2 kernels");
-  require_vector(kernels.centers, kernels.count(), "centers");
-  require_vector(kernels.widths, kernels.count(), "widths");
-  require(kernels.widths.minCoeff() > 0.0, "a kernel width is not > 0");
+  require_vector(kernels.centers, kernels.count(), center_bounds, "centers");
+  require_vector(kernels.widths, kernels.count(), width_bounds, "widths");
   require(weights.rows() == kernels.count() && weights.cols() == dimensions(),
           "weights are " + std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()) +
               ", must be " + std::to_string(kernels.count()) + " x " +
               std::to_string(dimensions()));
-  require(weights.allFinite(), "weights have an entry that is not finite");
-  require_vector(goal, dimensions(), "goal");
-  require_vector(start_position, dimensions(), "start_position");
-  require_vector(start_velocity, dimensions(), "start_velocity");
-  require_vector(start_acceleration, dimensions(), "start_acceleration");
+  require_entries(weights, value_bounds, "weights");
+  require_vector(goal, dimensions(), value_bounds, "goal");
+  require_vector(start_position, dimensions(), value_bounds, "start_position");
+  require_vector(start_velocity, dimensions(), value_bounds, "start_velocity");
+  require_vector(start_acceleration, dimensions(), value_bounds, "start_acceleration");
+  require_reference("primitive", coordinates, reference_orientation);
 }
 
 }  // namespace seam

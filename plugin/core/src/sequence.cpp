@@ -3,6 +3,7 @@
 
 #include <seam/basis.hpp>
 #include <seam/error.hpp>
+#include <seam/orientation.hpp>
 #include <seam/sequence.hpp>
 
 namespace seam {
@@ -65,6 +66,11 @@ Sequence& Sequence::then(Primitive primitive) {
   primitive.validate();
   if (!steps_.empty() && primitive.coordinates != coordinates())
     throw Error(name(steps_.size()), "its coordinates differ from those of the first primitive");
+  if (!steps_.empty()) {
+    const auto& reference = steps_.front().primitive.reference_orientation;
+    require_same_reference(name(steps_.size()), reference, primitive.reference_orientation);
+    primitive.reference_orientation = reference;
+  }
   const Switch until = primitive.kind == Kind::rhythmic ? after_cycles(1.0) : at_end();
   steps_.push_back({std::move(primitive), until, {}});
   return *this;

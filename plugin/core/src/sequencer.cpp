@@ -2,6 +2,7 @@
 #include <limits>
 
 #include <seam/error.hpp>
+#include <seam/orientation.hpp>
 #include <seam/sequencer.hpp>
 
 namespace seam {
@@ -36,6 +37,7 @@ Sequencer::Sequencer(const Sequence& sequence, const JoinSettings& join, const S
       start_(start),
       start_delay_(sequence.start_delay()),
       coordinates_(sequence.coordinates()),
+      reference_(sequence.steps().front().primitive.reference_orientation),
       scaled_(start) {
   if (static_cast<std::size_t>(start.position.size()) != coordinates_.size())
     throw Error("sequencer", "start has " + std::to_string(start.position.size()) +
@@ -49,9 +51,15 @@ Sequencer::Sequencer(const Sequence& sequence, const JoinSettings& join, const S
   if (start_delay_ == 0.0) switch_over();
 }
 
-void Sequencer::push(const Sequence& sequence) {
+void Sequencer::require_joinable(const Sequence& sequence) const {
   if (sequence.coordinates() != coordinates_)
     throw Error("sequencer", "the coordinates that are added differ from those that are there");
+  require_same_reference("sequencer", reference_,
+                         sequence.steps().front().primitive.reference_orientation);
+}
+
+void Sequencer::push(const Sequence& sequence) {
+  require_joinable(sequence);
   for (const Sequence::Step& step : sequence.steps())
     items_.push_back(
         {Execution(step.primitive), Execution(rest_of(step.primitive)), step.until, step.entry});
@@ -71,8 +79,7 @@ void Sequencer::append(const Sequence& sequence) {
 }
 
 void Sequencer::replace(const Sequence& sequence) {
-  if (sequence.coordinates() != coordinates_)
-    throw Error("sequencer", "the coordinates that are added differ from those that are there");
+  require_joinable(sequence);
   clear();
   append(sequence);
 }

@@ -36,16 +36,16 @@ LearnSettings read_settings(const YamlEntry& entry) {
 }
 
 Demonstration read_demonstration(const std::string& path, const DerivativeSettings& derivatives,
-                                 std::optional<Eigen::Quaterniond>& reference) {
-  Demonstration demo = Demonstration::read(path, derivatives);
+                                 const std::optional<Eigen::Quaterniond>& reference) {
+  const Demonstration demo = Demonstration::read(path, derivatives);
   if (!has_orientation(demo)) return demo;
-  if (!reference) reference = first_orientation(demo);
-  return with_rotation_vector(demo, *reference, derivatives);
+  return with_rotation_vector(demo, reference ? *reference : first_orientation(demo), derivatives);
 }
 
 }  // namespace
 
-Primitive learn_primitive(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& reference) {
+Primitive learn_primitive(const YamlEntry& entry,
+                          const std::optional<Eigen::Quaterniond>& reference) {
   entry.only({"demonstration", "kind", "period", "kernels", "width", "precision", "method", "alpha",
               "gains", "cutoff"});
   const LearnSettings settings = read_settings(entry);

@@ -11,7 +11,7 @@ namespace seam {
 /// @throws Error  see read_primitive
 Primitive read_primitive(const YamlEntry& entry);
 
-/// The lines of that map, each behind an indent.
+/// The lines of that map but for `reference`, each behind an indent.
 /// @throws Error  the primitive is not valid, or a coordinate has no name
 std::string primitive_entries(const Primitive& primitive, const std::string& indent);
 

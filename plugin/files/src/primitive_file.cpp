@@ -1,5 +1,6 @@
 #include "primitive_entry.hpp"
 #include "yaml_text.hpp"
+#include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
 #include <seam/table.hpp>
 
@@ -8,7 +9,7 @@ namespace seam {
 namespace {
 
 constexpr const char* format_name = "seam-primitive";
-constexpr int format_version = 1;
+constexpr int format_with_reference = 2;
 
 std::vector<std::string> texts(const YamlEntry& entry) {
   std::vector<std::string> list;
@@ -45,6 +46,13 @@ void read_start(const YamlEntry& entry, Eigen::Index D, Primitive& primitive) {
   primitive.start_acceleration = entry.at("acceleration").numbers(D, "coordinate");
 }
 
+void read_reference(const YamlEntry& entry, Primitive& primitive) {
+  primitive.reference_orientation = entry.orientation();
+  at_key(entry, [&] {
+    require_reference("primitive", primitive.coordinates, primitive.reference_orientation);
+  });
+}
+
 void require_names(const Primitive& primitive) {
   for (const std::string& name : primitive.coordinates)
     if (name.empty()) throw Error("primitive", "a coordinate has no name");
@@ -53,14 +61,15 @@ void require_names(const Primitive& primitive) {
 }  // namespace
 
 Primitive read_primitive(const YamlEntry& entry) {
-  if (entry.find("format")) entry.require_format(format_name, format_version);
-  entry.only({"format", "kind", "coordinates", "tau", "alpha", "gains", "goal", "start", "kernels",
-              "weights"});
+  if (entry.find("format")) entry.require_format(format_name, format_with_reference);
+  entry.only({"format", "reference", "kind", "coordinates", "tau", "alpha", "gains", "goal",
+              "start", "kernels", "weights"});
   Primitive primitive;
   primitive.kind =
       entry.at("kind").choice({"discrete", "rhythmic"}) == 0 ? Kind::discrete : Kind::rhythmic;
   primitive.coordinates = texts(entry.at("coordinates"));
   const auto D = static_cast<Eigen::Index>(primitive.coordinates.size());
+  if (const auto reference = entry.find("reference")) read_reference(*reference, primitive);
   primitive.tau = entry.at("tau").positive();
   primitive.alpha = entry.at("alpha").positive();
   primitive.gains = read_gains(entry.at("gains"));
@@ -99,12 +108,14 @@ std::string primitive_entries(const Primitive& primitive, const std::string& ind
 
 Primitive read_primitive(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
-  return read_primitive(root.require_format(format_name, format_version));
+  return read_primitive(root.require_format(format_name, format_with_reference));
 }
 
 void write_primitive(const std::string& path, const Primitive& primitive) {
-  write_whole(path, std::string("format: ") + format_name + " " + std::to_string(format_version) +
-                        "\n" + primitive_entries(primitive, ""));
+  const int version = primitive.reference_orientation ? format_with_reference : 1;
+  const std::string entries = primitive_entries(primitive, "");
+  write_whole(path, std::string("format: ") + format_name + " " + std::to_string(version) + "\n" +
+                        yaml_reference(primitive.reference_orientation) + entries);
 }
 
 }  // namespace seam

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "learn_entry.hpp"
 #include "primitive_entry.hpp"
 #include "sequence_entry.hpp"
 #include "yaml_text.hpp"
+#include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
 #include <seam/sequence_file.hpp>
 #include <seam/table.hpp>
@@ -59,9 +59,10 @@ Entry read_entry(const YamlEntry& entry) {
 }
 
 using Primitives = std::map<std::string, Primitive>;
+using Reference = std::optional<Eigen::Quaterniond>;
 using Check = std::function<void(const Primitive&)>;
 
-Primitive read_named(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& reference) {
+Primitive read_named(const YamlEntry& entry, const Reference& reference) {
   if (const auto file = entry.find("file")) {
     entry.only({"file"});
     return at_key(*file, [&] { return read_primitive(file->path()); });
@@ -71,10 +72,25 @@ Primitive read_named(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& 
   entry.fail("needs one of the keys file, demonstration, weights");
 }
 
-Primitives read_primitives(const YamlEntry& entry, std::optional<Eigen::Quaterniond>& reference) {
+void agree(const YamlEntry& entry, const Reference& given, Primitive& primitive) {
+  Reference& own = primitive.reference_orientation;
+  if (!given || !has_rotation_vector(primitive.coordinates)) return;
+  if (!own) own = given;
+  at_key(entry, [&] { require_same_reference("primitive", given, own); });
+}
+
+// Demonstrations last: they are turned from the reference orientation that the others have.
+Primitives read_primitives(const YamlEntry& entry, const Reference& given) {
   Primitives primitives;
-  for (const auto& [name, primitive] : entry.entries())
-    primitives.emplace(name, read_named(primitive, reference));
+  Reference reference = given;
+  for (const bool demonstrated : {false, true})
+    for (const auto& [name, from] : entry.entries()) {
+      if (from.find("demonstration").has_value() != demonstrated) continue;
+      Primitive primitive = read_named(from, reference);
+      agree(from, given, primitive);
+      if (!reference) reference = primitive.reference_orientation;
+      primitives.emplace(name, std::move(primitive));
+    }
   return primitives;
 }
 
@@ -114,15 +130,6 @@ Sample read_start(const YamlEntry& entry, const Primitive& first) {
     }
   }
   return start;
-}
-
-// Kept to the bit where it is a unit quaternion already.
-Eigen::Quaterniond read_reference(const YamlEntry& entry) {
-  const Eigen::VectorXd xyzw = entry.numbers(4, "part x y z w");
-  const Eigen::Quaterniond q(Eigen::Vector4d{xyzw});
-  if (!(std::abs(q.norm() - 1.0) <= 1e-3))
-    entry.fail("quaternion of norm " + std::to_string(q.norm()) + ", must be 1 within 0.001");
-  return std::abs(q.norm() - 1.0) < 1e-12 ? q : q.normalized();
 }
 
 std::string text_of(const Switch& until) {
@@ -193,11 +200,14 @@ SequenceFile read_sequence(const YamlEntry& entry, const Check& check) {
   if (entry.find("format")) entry.require_format(format_name, format_version);
   entry.only({"format", "start", "start_after", "reference", "primitives", "steps"});
   SequenceFile file;
-  if (const auto reference = entry.find("reference")) file.reference = read_reference(*reference);
+  const auto reference = entry.find("reference");
   if (const auto delay = entry.find("start_after"))
     file.sequence.start_after(delay->not_negative());
-  const Primitives primitives = read_primitives(entry.at("primitives"), file.reference);
+  const Primitives primitives = read_primitives(
+      entry.at("primitives"), reference ? Reference(reference->orientation()) : std::nullopt);
   for (const YamlEntry& step : entry.at("steps").items()) read_step(step, primitives, check, file);
+  if (reference && !file.sequence.steps().front().primitive.reference_orientation)
+    reference->fail("the primitives have no coordinates rx, ry and rz");
   if (const auto start = entry.find("start"))
     file.start = read_start(*start, file.sequence.steps().front().primitive);
   return file;
@@ -214,8 +224,7 @@ void write_sequence(const std::string& path, const SequenceFile& file) {
   const auto& names = file.sequence.coordinates();
   if (file.start) text += start_text(*file.start, names);
   text += "start_after: " + yaml_number(file.sequence.start_delay()) + "  # [s]\n";
-  if (file.reference) text += "reference: " + yaml_list(Eigen::VectorXd(file.reference->coeffs()));
-  if (file.reference) text += "  # x y z w\n";
+  text += yaml_reference(file.sequence.steps().front().primitive.reference_orientation);
   write_whole(path, text + primitives_text(file) + steps_text(file));
 }
 

@@ -10,6 +10,8 @@
 
 #include <yaml-cpp/eventhandler.h>
 
+#include <seam/orientation.hpp>
+
 namespace seam {
 
 namespace {
@@ -93,12 +95,13 @@ void YamlEntry::fail(const std::string& what) const {
               one_line((key_.empty() ? "" : "key \"" + key_ + "\": ") + what));
 }
 
-const YamlEntry& YamlEntry::require_format(const std::string& name, int version) const {
+const YamlEntry& YamlEntry::require_format(const std::string& name, int newest) const {
   const YamlEntry entry = at("format");
   const int found = version_of(entry.text(), name);
-  if (found == version) return *this;
-  entry.fail("\"" + entry.text() + "\", must be " + name + " " + std::to_string(version) +
-             (found > version ? " (a newer seam has written this file)" : ""));
+  if (found >= 1 && found <= newest) return *this;
+  entry.fail("\"" + entry.text() + "\", must be " + name + " 1" +
+             (newest > 1 ? " to " + std::to_string(newest) : "") +
+             (found > newest ? " (a newer seam has written this file)" : ""));
 }
 
 const YamlEntry& YamlEntry::only(std::initializer_list<const char*> keys) const {
@@ -200,6 +203,13 @@ Eigen::VectorXd YamlEntry::numbers(Eigen::Index size, const char* per) const {
     fail(std::to_string(values.size()) + " numbers, must be " + std::to_string(size) +
          " (one per " + per + ")");
   return values;
+}
+
+Eigen::Quaterniond YamlEntry::orientation() const {
+  const Eigen::Quaterniond q(Eigen::Vector4d{numbers(4, "part x y z w")});
+  if (!(std::abs(q.norm() - 1.0) <= 1e-3))
+    fail("quaternion of norm " + std::to_string(q.norm()) + ", must be 1 within 0.001");
+  return std::abs(q.norm() - 1.0) <= unit_tolerance ? q : q.normalized();
 }
 
 std::string YamlEntry::path() const {

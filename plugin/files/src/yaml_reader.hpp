@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <yaml-cpp/yaml.h>
 
 #include <seam/error.hpp>
@@ -21,9 +22,10 @@ class YamlEntry {
   /// @throws Error  cannot be read, is not YAML (names the line), or goes on behind its first document
   static YamlEntry read(const std::string& path);
 
-  /// Refuses a file whose key `format` is not `<name> <version>`; to be asked before all else, so
-  /// that a file of a newer format is refused for that and not for its first new key.
-  const YamlEntry& require_format(const std::string& name, int version) const;
+  /// Refuses a file whose key `format` is not `<name> <version>` of a version from 1 to the newest;
+  /// to be asked before all else, so that a file of a newer format is refused for that and not for
+  /// its first new key.
+  const YamlEntry& require_format(const std::string& name, int newest) const;
   /// Refuses every key of this map but these, and whatever is not a map.
   const YamlEntry& only(std::initializer_list<const char*> keys) const;
   /// The entry under a key. @throws Error  there is none
@@ -45,6 +47,9 @@ class YamlEntry {
   Eigen::VectorXd numbers() const;
   /// As many as this. @param per  what there must be one of them for, e.g. `coordinate`
   Eigen::VectorXd numbers(Eigen::Index size, const char* per) const;
+  /// Four numbers x y z w of norm 1 within 1e-3; normalised, but kept to the bit where they will do
+  /// as they are (see unit_tolerance).
+  Eigen::Quaterniond orientation() const;
   /// A path, relative to the file's folder unless absolute.
   std::string path() const;
 

@@ -49,4 +49,9 @@ std::string yaml_list(const std::vector<std::string>& texts) {
   return bracketed(texts, yaml_text);
 }
 
+std::string yaml_reference(const std::optional<Eigen::Quaterniond>& reference) {
+  if (!reference) return {};
+  return "reference: " + yaml_list(Eigen::VectorXd(reference->coeffs())) + "  # x y z w\n";
+}
+
 }  // namespace seam

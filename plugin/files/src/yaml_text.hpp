@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace seam {
 
@@ -15,5 +17,7 @@ std::string yaml_text(const std::string& text);
 /// [a, b, …]
 std::string yaml_list(const Eigen::VectorXd& values);
 std::string yaml_list(const std::vector<std::string>& texts);
+/// A line `reference: [x, y, z, w]`; none where there is no reference orientation.
+std::string yaml_reference(const std::optional<Eigen::Quaterniond>& reference);
 
 }  // namespace seam

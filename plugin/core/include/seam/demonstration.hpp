@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace seam {
 
@@ -30,6 +32,8 @@ struct Demonstration {
   Eigen::MatrixXd velocity;              // N × D, per second
   Eigen::MatrixXd acceleration;          // N × D, per second squared
   std::string source = "demonstration";  // where it is from (a file's path), for messages
+  /// q₀ of the coordinates rx ry rz (see with_rotation_vector), where it is known.
+  std::optional<Eigen::Quaterniond> reference_orientation = std::nullopt;
 
   int samples() const { return static_cast<int>(time.size()); }
   int dimensions() const { return static_cast<int>(position.cols()); }
@@ -59,7 +63,8 @@ struct Demonstration {
 
   /// @throws Error  what keeps it from being learned: no coordinates, names that repeat, fewer than
   ///                five samples, sizes that do not match, a time that does not increase, a value
-  ///                that is not finite
+  ///                that is not finite, a reference orientation that will not do (see
+  ///                require_reference)
   void validate() const;
   /// For a robot to check that it has what was shown.
   /// @throws Error  a coordinate that is not among the names

@@ -39,7 +39,7 @@ struct LearnSettings {
 /// has τ = T/2π, phase 0 at the first sample, and as its goal the centre (see find_centre); the
 /// demonstration may hold any number of periods from one on, whole or not.
 /// @param demo  N samples × D coordinates; N ≥ 2·kernels
-/// @return      primitive with weights M × D
+/// @return      primitive with weights M × D, its reference orientation the demonstration's
 /// @throws Error  names the demonstration's source: fewer samples than 2·kernels, a demonstration
 ///                that is not valid, settings out of range, no period found or less than one shown,
 ///                a precision that is not reached (with the best that was)
@@ -55,7 +55,7 @@ struct LearnReport {
 
 /// Compares a primitive with a demonstration of the same coordinates, its own or another that has
 /// the same start and time. Rolls out the second-order system.
-/// @throws Error  either is not valid, coordinates that differ
+/// @throws Error  either is not valid, coordinates or reference orientations that differ
 LearnReport assess(const Demonstration& demo, const Primitive& primitive);
 
 }  // namespace seam

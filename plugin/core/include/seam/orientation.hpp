@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include <seam/demonstration.hpp>
@@ -9,8 +13,10 @@ namespace seam {
 /// Orientation as three coordinates: the rotation vector ρ that turns a reference orientation q₀
 /// into q,
 ///     q = exp(ρ)·q₀,  |ρ| the angle, ρ/|ρ| the axis in the frame in which q and q₀ are given.
-/// Every primitive that is joined to another must have the same q₀. The coordinates are valid
-/// within π of q₀, where ρ and q determine each other; a motion that is continuous in ρ, ρ̇, ρ̈ is
+/// Every primitive that is joined to another must have the same q₀: it travels with the values as
+/// `reference_orientation`, from the demonstration to the primitive and its file. One that has the
+/// coordinates rx ry rz without it (from a file with such columns of its own) can be learned, played
+/// and joined to its like, but not to one that has it. The coordinates are valid within π of q₀, where ρ and q determine each other; a motion that is continuous in ρ, ρ̇, ρ̈ is
 /// so in q, ω, ω̇.
 struct RotationState {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();        // ρ [rad]
@@ -62,10 +68,35 @@ Eigen::Quaterniond first_orientation(const Demonstration& demo);
 /// vector rx ry rz [rad] about q₀. Quaternions are normalised and followed continuously, whatever
 /// their signs; derivatives of the new columns are taken by a smoothing fit, those of all others
 /// are kept.
-/// @param q0  unit quaternion, the same for all demonstrations whose primitives are to be joined
-/// @throws Error  names source and sample: a norm that is not 1 within 1e-3, an orientation beyond
-///                π of q₀, a missing column, or one that is named rx, ry or rz already
+/// @param q0  unit quaternion, the same for all demonstrations whose primitives are to be joined;
+///            the result's reference orientation
+/// @throws Error  names source and sample: a norm that is not 1 within 1e-3 (of q₀: 1e-9), an
+///                orientation beyond π of q₀, a missing column, or one that is named rx, ry or rz
+///                already
 Demonstration with_rotation_vector(const Demonstration& demo, const Eigen::Quaterniond& q0,
                                    const DerivativeSettings& settings = {});
+
+/// The same demonstration with its rotation vectors rx ry rz about another q₀. They and their
+/// derivatives are mapped exactly, sample by sample; all other columns are kept.
+/// @throws Error  the demonstration is not valid or has no reference orientation, q₀ is not a unit
+///                quaternion within 1e-9, or a sample is beyond π of either
+Demonstration with_reference(const Demonstration& demo, const Eigen::Quaterniond& q0);
+
+/// Whether rx, ry and rz are all there.
+bool has_rotation_vector(const std::vector<std::string>& coordinates);
+
+/// How far a reference orientation's norm may be from 1.
+inline constexpr double unit_tolerance = 1e-9;
+
+/// @throws Error  names the place and the value: a reference orientation that is not a unit
+///                quaternion within unit_tolerance, or without the coordinates rx, ry, rz
+void require_reference(const std::string& place, const std::vector<std::string>& coordinates,
+                       const std::optional<Eigen::Quaterniond>& reference);
+
+/// @throws Error  names the place and both values: reference orientations that differ by more than
+///                1e-8 rad (q and −q are the same), or of which one alone is known
+void require_same_reference(const std::string& place,
+                            const std::optional<Eigen::Quaterniond>& expected,
+                            const std::optional<Eigen::Quaterniond>& found);
 
 }  // namespace seam

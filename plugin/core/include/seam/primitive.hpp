@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace seam {
 
@@ -42,6 +44,22 @@ struct Kernels {
   static Kernels even_in_phase(int count, double width);
 };
 
+/// What a primitive's numbers must lie within, so that all it is played to stays finite: generous,
+/// the usual ones are in the middle.
+struct Bounds {
+  double least;
+  double largest;
+
+  bool hold(double value) const { return value >= least && value <= largest; }
+};
+
+inline constexpr Bounds tau_bounds{1e-6, 1e9};      // [s]
+inline constexpr Bounds gain_bounds{1e-6, 1e5};     // K, D and H: at 1e5 in a time of τ/300
+inline constexpr Bounds alpha_bounds{1e-6, 20.0};   // x(τ) from 1 to 2e-9
+inline constexpr Bounds center_bounds{-1e6, 1e6};   // phase, [rad] if rhythmic
+inline constexpr Bounds width_bounds{1e-9, 1e9};    // likewise
+inline constexpr Bounds value_bounds{-1e30, 1e30};  // weights, goal and start, SI units
+
 /// A dynamic movement primitive for D coordinates on one phase: what was learned, as a value.
 ///     τv̇ = K(r − y) − Dv + f,  τẏ = v,  τṙ = H(g − r)          (Eqs. 1, 5)
 ///     discrete  f(x) = x·Σwⱼψⱼ(x)/Σψⱼ(x),  τẋ = −αx             (Eqs. 2, 4)
@@ -60,11 +78,14 @@ struct Primitive {
   Eigen::VectorXd start_position;      // D, where the demonstration began
   Eigen::VectorXd start_velocity;      // D, per second
   Eigen::VectorXd start_acceleration;  // D, per second squared
+  /// q₀ of the coordinates rx ry rz (see orientation.hpp), where it is known.
+  std::optional<Eigen::Quaterniond> reference_orientation = std::nullopt;
 
   int dimensions() const { return static_cast<int>(goal.size()); }
 
   /// @throws Error  names the first entry that cannot be executed: sizes that do not match, values
-  ///                that are not finite, tau, alpha, gains or widths ≤ 0, coordinate names that repeat
+  ///                that are not finite or out of the bounds above, coordinate names that repeat, a
+  ///                reference orientation that will not do (see require_reference)
   void validate() const;
 };
 

@@ -80,7 +80,8 @@ class Sequence {
   Sequence& start_after(double seconds);
   /// Appends a primitive; unless `until` says otherwise a discrete one runs until its end, a rhythmic one for
   /// one cycle.
-  /// @throws Error  the primitive is not valid, or its coordinates differ from those before it
+  /// @throws Error  the primitive is not valid, or its coordinates or reference orientation differ from those before it
+  ///                (one that is not known differs from one that is; q and −q do not, and the first one's sign is kept)
   Sequence& then(Primitive primitive);
   /// Sets when the primitive appended last hands over.
   /// @throws Error  nothing appended yet, or the switch can never be due, or not after the beginning

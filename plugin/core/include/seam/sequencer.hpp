@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -54,10 +55,10 @@ class Sequencer {
   bool reinitialise(const Sample& at) noexcept;
 
   /// Adds a sequence's primitives behind the last one. Its start delay is ignored.
-  /// @throws Error  its coordinates differ
+  /// @throws Error  its coordinates or reference orientation differ
   void append(const Sequence& sequence);
   /// Drops what has not begun yet, then appends.
-  /// @throws Error  its coordinates differ
+  /// @throws Error  its coordinates or reference orientation differ
   void replace(const Sequence& sequence);
   /// Drops what has not begun yet.
   void clear() noexcept;
@@ -93,6 +94,7 @@ class Sequencer {
   }
   Execution& now() noexcept { return settling_ ? items_[index()].rest : items_[index()].execution; }
   bool is_last() const noexcept { return running_ + 1 == static_cast<int>(items_.size()); }
+  void require_joinable(const Sequence& sequence) const;
   void push(const Sequence& sequence);
   double due() const noexcept;
   void update_due() noexcept;
@@ -104,6 +106,7 @@ class Sequencer {
   Sample start_;
   double start_delay_;
   std::vector<std::string> coordinates_;
+  std::optional<Eigen::Quaterniond> reference_;  // of the coordinates rx ry rz
   std::vector<Item> items_;
   std::vector<JoinEvent> events_;
   std::size_t joins_ = 0;

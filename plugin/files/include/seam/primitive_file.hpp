@@ -6,10 +6,13 @@
 
 namespace seam {
 
-/// Reads a primitive from a YAML file of the format `seam-primitive 1`. What write_primitive has
-/// written comes back bit for bit. All keys must be there, and no others:
+/// Reads a primitive from a YAML file of the format `seam-primitive 1` or `2`, which adds the key
+/// `reference`. What write_primitive has written comes back bit for bit. All keys but `reference`
+/// must be there, and no others:
 ///
-///     format: seam-primitive 1
+///     format: seam-primitive 2
+///     reference: [0, 0, 0, 1]            # optional, unit quaternion x y z w: the reference
+///                                        # orientation of the coordinates rx ry rz
 ///     kind: discrete                     # or rhythmic
 ///     coordinates: ["x", "y"]            # D names
 ///     tau: 1.2                           # [s] duration, or period/2π
@@ -27,7 +30,8 @@ namespace seam {
 ///                size
 Primitive read_primitive(const std::string& path);
 
-/// Writes a primitive with 17 significant digits. The file appears whole or not at all.
+/// Writes a primitive with 17 significant digits, of format 1 where it has no reference orientation,
+/// so that an older seam can read it. The file appears whole or not at all.
 /// @throws Error  the primitive is not valid, a coordinate has no name, or the file cannot be
 ///                written
 void write_primitive(const std::string& path, const Primitive& primitive);

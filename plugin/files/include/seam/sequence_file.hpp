@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <seam/join.hpp>
 #include <seam/sequence.hpp>
 
@@ -14,9 +12,8 @@ namespace seam {
 /// A sequence and what a file says beside it.
 struct SequenceFile {
   Sequence sequence;
-  std::vector<std::string> primitives;          // names, one per step
-  std::optional<Sample> start;                  // the state to start from, where it is given
-  std::optional<Eigen::Quaterniond> reference;  // q₀ of the coordinates rx ry rz
+  std::vector<std::string> primitives;  // names, one per step
+  std::optional<Sample> start;          // the state to start from, where it is given
 
   /// The state to start from: `start`, or at rest where the first primitive's demonstration began.
   Sample start_state() const;
@@ -31,9 +28,7 @@ struct SequenceFile {
 ///       position: {x: 0.1}              # else where the first primitive began
 ///       velocity: {x: 0}                # else 0; likewise acceleration, jerk
 ///     start_after: 0.25                 # optional [s] at rest before the first primitive
-///     reference: [0, 0, 0, 1]           # optional, unit quaternion x y z w from which the columns
-///                                       # qx qy qz qw of demonstrations are turned; else the
-///                                       # first sample of the first demonstration that has them
+///     reference: [0, 0, 0, 1]           # optional, see below
 ///     primitives:
 ///       reach: {file: reach.yaml}       # a primitive file
 ///       wipe: {demonstration: wipe.csv, kind: rhythmic, period: 1.5}  # learned, see below
@@ -47,6 +42,12 @@ struct SequenceFile {
 /// A demonstration is learned with LearnSettings and DerivativeSettings, all optional: kind, period
 /// [s], kernels, width, precision [m or rad], method (least_squares, recursive, locally_weighted),
 /// alpha, gains: {K, D, H} (D and H optional: critical), cutoff [Hz].
+///
+/// `reference`, a unit quaternion x y z w, is the reference orientation of all primitives with the
+/// coordinates rx ry rz: the columns qx qy qz qw of demonstrations are turned from it, primitives
+/// that carry none are taken as about it, those that carry another are refused. Without the key
+/// demonstrations are turned from that of the first primitive that carries one, else from the first
+/// sample of the first demonstration with an orientation.
 /// @throws Error  names file, line and key: unreadable, not YAML, a newer format, a missing, extra
 ///                or repeated key, a value that is not a finite number or out of range, a name that
 ///                is not among the primitives, and whatever Sequence, learn or a file that is named
