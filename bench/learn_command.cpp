@@ -131,8 +131,10 @@ void add_learn_command(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command
-      .add_option("--reference", options->reference,
-                  "QX QY QZ QW that an orientation is turned from, the same for all that is joined")
+      .add_option(
+          "--reference", options->reference,
+          "QX QY QZ QW that an orientation is turned from (or rx ry rz are), the same for all "
+          "that is joined")
       ->expected(4);
   command.callback([options] { learn_file(*options); });
 }

@@ -103,6 +103,35 @@ TEST(LearnCommand, TurnsAnOrientationFromTheReferenceThatItIsGiven) {
   const Primitive primitive = read_primitive(kitchen.path("turn.yaml"));
   EXPECT_EQ(primitive.coordinates, (std::vector<std::string>{"rx", "ry", "rz"}));
   EXPECT_NEAR(primitive.goal(0), 1.0, 1e-9);
+  EXPECT_EQ(primitive.reference_orientation->w(), 1.0);
+}
+
+TEST(LearnCommand, TakesRotationVectorsOfTheFileAsAboutTheReference) {
+  const Kitchen kitchen;
+  Table turn = Table::read(kitchen.path("turn.csv"));
+  turn.columns = {"time", "rx", "ry", "rz", "z"};
+  turn.write(kitchen.path("vectors.csv"));
+  const std::string files = kitchen.path("vectors.csv") + " -o " + kitchen.path("turn.yaml");
+  ASSERT_EQ(run("learn " + files).status, 0);
+  EXPECT_FALSE(read_primitive(kitchen.path("turn.yaml")).reference_orientation);
+  ASSERT_EQ(run("learn " + files + " --reference 0.6 0 0 0.8").status, 0);
+  EXPECT_EQ(read_primitive(kitchen.path("turn.yaml")).reference_orientation->x(), 0.6);
+}
+
+TEST(RolloutCommand, RefusesPrimitivesAboutDifferentReferences) {
+  const Kitchen kitchen;
+  const std::string call = "learn " + kitchen.path("turn.csv") + " -o " + kitchen.path("");
+  ASSERT_EQ(run(call + "a.yaml --reference 0 0 0 1").status, 0);
+  ASSERT_EQ(run(call + "b.yaml --reference 0 0.6 0 0.8").status, 0);
+  const std::string path = kitchen.write("task.yaml",
+                                         "format: seam-sequence 1\n"
+                                         "primitives: {a: {file: a.yaml}, b: {file: b.yaml}}\n"
+                                         "steps: [{play: a}, {play: b}]\n");
+  const Outcome outcome = run("rollout " + path + " --method dmp3 -o " + kitchen.path("out.csv"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.output, "seam: " + path +
+                                ":3: key \"play\": sequence: primitive 2: reference orientation 0 "
+                                "0.6 0 0.8, must be 0 0 0 1 (x y z w), the same for all\n");
 }
 
 const char* const task = R"(format: seam-sequence 1
@@ -197,6 +226,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"ShortReference", "learn @turn.csv -o @out.yaml --reference 0 0 1", "--reference"},
         BadCall{"ReferenceNotUnit", "learn @turn.csv -o @out.yaml --reference 0 0 1 1",
                 "--reference: quaternion of norm 1.41421, must be 1 within 0.001"},
+        BadCall{"ReferenceOfNothing", "learn @reach.csv -o @out.yaml --reference 0 0 0 1",
+                "reference orientation 0 0 0 1, must have the coordinates rx, ry and rz"},
         BadCall{"UnwritableFile", "learn @reach.csv -o @none/out.yaml",
                 "none/out.yaml: cannot be written"},
         BadCall{"NoMethod", "rollout @task.yaml -o @out.csv", "--method is required"},

@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"FarCenter", "[1, 0.5,", "[1e200, 0.5,",
                 ":1: primitive: centers: an entry is 1e+200, must be in -1e+06 to 1e+06"},
         BadFile{"HugeK", "K: 200", "K: 1e300",
-                ":1: primitive: K 1e+300, must be in 1e-06 to 100000"},
+                ":1: primitive: K 1e+300, must be in 1e-06 to 1e+06"},
         BadFile{"TinyAlpha", "alpha: 2", "alpha: 1e-300",
                 ":1: primitive: alpha 1e-300, must be in 1e-06 to 20"},
         BadFile{"DenormalTau", "tau: 1.2", "tau: 1e-320", ":1: primitive: tau 9.99989e-321, must"},

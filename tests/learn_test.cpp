@@ -289,7 +289,7 @@ TEST(Learn, RefusesSettingsOutOfRange) {
   EXPECT_EQ(message(settings), "learning: precision nan, must be > 0, or 0 for none");
   settings = {};
   settings.gains.K = -1.0;
-  EXPECT_EQ(message(settings), "primitive: K -1, must be in 1e-06 to 100000");
+  EXPECT_EQ(message(settings), "primitive: K -1, must be in 1e-06 to 1e+06");
   settings = {};
   settings.kind = Kind::rhythmic;
   settings.period = -0.5;

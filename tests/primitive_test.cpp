@@ -149,7 +149,7 @@ TEST(Primitive, RefusesWhatCannotBeExecuted) {
   EXPECT_EQ(message([](Primitive& p) { p.tau = 0.0; }),
             "primitive: tau 0, must be in 1e-06 to 1e+09");
   EXPECT_EQ(message([](Primitive& p) { p.gains.K = -1.0; }),
-            "primitive: K -1, must be in 1e-06 to 100000");
+            "primitive: K -1, must be in 1e-06 to 1e+06");
   EXPECT_EQ(message([](Primitive& p) { p.goal(0) = NAN; }),
             "primitive: goal: an entry is nan, must be in -1e+30 to 1e+30");
   EXPECT_EQ(message([](Primitive& p) { p.weights(3, 1) = INFINITY; }),

@@ -19,6 +19,20 @@ TEST(Propagator, MatchesTheClosedFormOfACriticallyDampedSpring) {
     }
 }
 
+// Undamped, unforced: e(t) = e₀ cos(ωt) with ω = √K/τ, through up to a hundred turns in a step.
+TEST(Propagator, MatchesTheClosedFormOfAnUndampedSpringOfAnyTimeAndStiffness) {
+  for (const double K : {1.0, 200.0, 1e5})
+    for (const double tau : {1e-6, 1e-3, 1.0, 1e9})
+      for (const double steps : {1.0, 7.0, 200.0}) {
+        const double dt = 2.0 * tau / steps;
+        const double w = std::sqrt(K) / tau;
+        const Propagator step({K, 0.0, std::sqrt(K)}, tau, dt);
+        const Eigen::Vector3d e = step.Phi * Eigen::Vector3d(0.7, 0.0, 0.0);
+        EXPECT_NEAR(e(0), 0.7 * std::cos(w * dt), 1e-10) << K << ", " << tau << ", " << steps;
+        EXPECT_NEAR(e(1), -0.7 * w * std::sin(w * dt), 1e-10 * w) << K << ", " << tau;
+      }
+}
+
 TEST(Propagator, TwoHalfStepsMakeAWhole) {
   const Propagator whole(Gains::paper(), 0.8, 0.02);
   const Propagator half(Gains::paper(), 0.8, 0.01);

@@ -54,7 +54,7 @@ struct Bounds {
 };
 
 inline constexpr Bounds tau_bounds{1e-6, 1e9};      // [s]
-inline constexpr Bounds gain_bounds{1e-6, 1e5};     // K, D and H: at 1e5 in a time of τ/300
+inline constexpr Bounds gain_bounds{1e-6, 1e6};     // K, D and H; at K = 1e6 within τ/100
 inline constexpr Bounds alpha_bounds{1e-6, 20.0};   // x(τ) from 1 to 2e-9
 inline constexpr Bounds center_bounds{-1e6, 1e6};   // phase, [rad] if rhythmic
 inline constexpr Bounds width_bounds{1e-9, 1e9};    // likewise
