@@ -95,7 +95,7 @@ TEST(RecursiveLearner, RefusesWhatIsOutOfRange) {
     return refusal([&] { RecursiveLearner({"y"}, goal, duration, {}, lambda); });
   };
   EXPECT_EQ(message(1.0, 0.0), "recursive learner: lambda 0.000000, must be > 0");
-  EXPECT_EQ(message(-1.0, 1e8), "primitive: tau -1.000000, must be > 0");
+  EXPECT_EQ(message(-1.0, 1e8), "primitive: tau -1, must be in 1e-06 to 1e+09");
 }
 
 }  // namespace
