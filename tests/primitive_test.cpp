@@ -85,18 +85,25 @@ TEST(Basis, RegressorIsThePrintedFormula) {
   }
 }
 
-TEST(Basis, TwoPhasesAtOnceGiveTheSameBitsAsEachAlone) {
-  for (const Primitive& primitive :
-       {primitive_with(Kind::discrete, Kernels::even_in_time(9, 0.75, 2.0)),
-        primitive_with(Kind::rhythmic, Kernels::even_in_phase(9, 1.0))}) {
-    const Basis basis(primitive);
-    Eigen::VectorXd rows(18), first(9), second(9);
-    basis.regressors(0.83, 0.31, rows.data());
-    basis.regressor(0.83, first.data());
-    basis.regressor(0.31, second.data());
-    EXPECT_EQ(rows.head(9), first);
-    EXPECT_EQ(rows.tail(9), second);
-  }
+TEST(Basis, ForcingIsTheRegressorTimesTheWeightsAtBothPhases) {
+  for (const int M : {2, 9, 12})
+    for (const int D : {1, 7, 8, 11})
+      for (const Primitive& primitive :
+           {primitive_with(Kind::discrete, Kernels::even_in_time(M, 0.75, 2.0)),
+            primitive_with(Kind::rhythmic, Kernels::even_in_phase(M, 1.0)),
+            primitive_with(Kind::discrete, Kernels::even_in_time(M, 0.02, 2.0))}) {
+        const Basis basis(primitive);
+        using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        Rows weights = Rows::Zero((M + 3) / 4 * 4, (D + 7) / 8 * 8);
+        weights.topLeftCorner(M, D).setRandom();
+        Eigen::VectorXd first(weights.cols()), second(weights.cols()), row(M);
+        basis.forcing(0.83, 0.31, weights.data(), static_cast<int>(weights.cols()), first.data(),
+                      second.data());
+        basis.regressor(0.83, row.data());
+        EXPECT_LT((first - weights.topRows(M).transpose() * row).cwiseAbs().maxCoeff(), 1e-14);
+        basis.regressor(0.31, row.data());
+        EXPECT_LT((second - weights.topRows(M).transpose() * row).cwiseAbs().maxCoeff(), 1e-14);
+      }
 }
 
 TEST(Basis, SlopeIsTheDerivativeOfTheRegressor) {

@@ -9,137 +9,190 @@ namespace seam {
 
 namespace {
 
+constexpr double nothing = 1e300;  // the precision of a kernel that only fills up
+constexpr double least_phase = 1e-200;
+constexpr double least_sum = 1e-200;  // of ψ; below it exponents are taken from the largest
+
 // exp(y) for y ≤ 0 to the last bit or two; flat below −700.
 // y = n·ln 2 + r, |r| ≤ ln 2/2, and the Taylor polynomial of degree 13 in r.
-__attribute__((always_inline)) inline void exp_nonpositive(Lanes& y) {
-  const Lanes floor = y - y - 700.0;
-  const Lanes clamped = y > floor ? y : floor;
-  const Lanes shifted = clamped * 0x1.71547652b82fep0 + 0x1.8p52;
-  const Lanes n = shifted - 0x1.8p52;
-  const Lanes r = (clamped - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b3ap-40;
-  const Lanes r2 = r * r;
-  const Lanes r4 = r2 * r2;
-  const Lanes low =
+SEAM_INLINE void exp_nonpositive(WideLanes& y) {
+  const WideLanes floor = WideLanes{} - 700.0;
+  const WideLanes clamped = y > floor ? y : floor;
+  const WideLanes shifted = clamped * 0x1.71547652b82fep0 + 0x1.8p52;
+  const WideLanes n = shifted - 0x1.8p52;
+  const WideLanes r = (clamped - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b3ap-40;
+  const WideLanes r2 = r * r;
+  const WideLanes r4 = r2 * r2;
+  const WideLanes low =
       (1.0 + r) + r2 * (0.5 + r * (1.0 / 6.0)) +
       r4 * ((1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0 + r * (1.0 / 5040.0)));
-  const Lanes high = (1.0 / 40320.0 + r * (1.0 / 362880.0)) +
-                     r2 * (1.0 / 3628800.0 + r * (1.0 / 39916800.0)) +
-                     r4 * (1.0 / 479001600.0 + r * (1.0 / 6227020800.0));
-  const IntegerLanes power = (reinterpret_cast<const IntegerLanes&>(shifted) + 1023) << 52;
-  y = (low + r4 * r4 * high) * reinterpret_cast<const Lanes&>(power);
+  const WideLanes high = (1.0 / 40320.0 + r * (1.0 / 362880.0)) +
+                         r2 * (1.0 / 3628800.0 + r * (1.0 / 39916800.0)) +
+                         r4 * (1.0 / 479001600.0 + r * (1.0 / 6227020800.0));
+  const WideIntegers power = (reinterpret_cast<const WideIntegers&>(shifted) + 1023) << 52;
+  y = (low + r4 * r4 * high) * reinterpret_cast<const WideLanes&>(power);
 }
 
-__attribute__((always_inline)) inline double largest(const Lanes& v) {
-  return std::max(std::max(v[0], v[1]), std::max(v[2], v[3]));
+// Lanes hold four kernels at a first phase, then the same four at a second.
+SEAM_INLINE void set_halves(double first, double second, WideLanes& v) {
+  v = WideLanes{first, first, first, first, second, second, second, second};
+}
+SEAM_INLINE void set_twice(const double* four, WideLanes& v) {
+  const Lanes& half = SEAM_CONST_LANES(four);
+  v = __builtin_shufflevector(half, half, 0, 1, 2, 3, 0, 1, 2, 3);
 }
 
-__attribute__((always_inline)) inline double sum(const Lanes& v) {
-  return (v[0] + v[1]) + (v[2] + v[3]);
-}
+// Exponents of ψ, of the kernels from j on.
+struct Discrete {
+  const double *centers, *precision;
+  double first, second;
 
-// The last lanes of a row may be its own for a part only.
-__attribute__((always_inline)) inline void load(const double* row, int left, Lanes& v) {
-  constexpr double nothing = -1e300;
-  if (left >= lanes)
-    v = SEAM_CONST_LANES(row);
-  else
-    v = Lanes{row[0], left > 1 ? row[1] : nothing, left > 2 ? row[2] : nothing, nothing};
-}
-
-__attribute__((always_inline)) inline void store(const Lanes& v, int left, double* row) {
-  if (left >= lanes) {
-    SEAM_LANES(row) = v;
-    return;
+  SEAM_INLINE void exponents(int j, WideLanes& v) const {
+    WideLanes phases, center, factor;
+    set_halves(first, second, phases);
+    set_twice(centers + j, center);
+    set_twice(precision + j, factor);
+    const WideLanes distance = phases - center;
+    v = -(distance * distance) * factor;
   }
-  row[0] = v[0];
-  if (left > 1) row[1] = v[1];
-  if (left > 2) row[2] = v[2];
-}
+};
 
-// From exponents of ψ to scale·ψ/Σψ, several rows of M side by side.
-template <int rows_count>
-__attribute__((always_inline)) inline void normalise(const double (&scale)[rows_count], int M,
-                                                     double* rows) {
-  Lanes v;
-  Lanes top[rows_count];
-  for (Lanes& lane : top) lane = Lanes{} - 1e300;
-  for (int j = 0; j < M; j += lanes)
-    for (int i = 0; i < rows_count; ++i) {
-      load(rows + i * M + j, M - j, v);
-      top[i] = v > top[i] ? v : top[i];
-    }
-  double shift[rows_count];
-  for (int i = 0; i < rows_count; ++i) shift[i] = largest(top[i]);
-  Lanes total[rows_count] = {};
-  for (int j = 0; j < M; j += lanes)
-    for (int i = 0; i < rows_count; ++i) {
-      load(rows + i * M + j, M - j, v);
-      v -= shift[i];
-      exp_nonpositive(v);
-      store(v, M - j, rows + i * M + j);
-      total[i] += v;
-    }
-  double factor[rows_count];
-  for (int i = 0; i < rows_count; ++i) factor[i] = scale[i] / sum(total[i]);
-  for (int j = 0; j < M; ++j)
-    for (int i = 0; i < rows_count; ++i) rows[i * M + j] *= factor[i];
-}
+struct Rhythmic {
+  const double *cosines, *sines, *precision;
+  double cosine[2], sine[2];
 
-template <int rows_count>
-__attribute__((always_inline)) inline void discrete(const double* centers, const double* precision,
-                                                    int M, const double (&phases)[rows_count],
-                                                    double* rows) {
-  for (int j = 0; j < M; j += lanes)
-    for (int i = 0; i < rows_count; ++i) {
-      const Lanes distance = phases[i] - SEAM_CONST_LANES(centers + j);
-      store(-(distance * distance) * SEAM_CONST_LANES(precision + j), M - j, rows + i * M + j);
-    }
-  normalise(phases, M, rows);
-}
+  Rhythmic(const double* of_cosines, const double* of_sines, const double* of_precision,
+           double first, double second)
+      : cosines(of_cosines),
+        sines(of_sines),
+        precision(of_precision),
+        cosine{std::cos(first), std::cos(second)},
+        sine{std::sin(first), std::sin(second)} {}
 
-template <int rows_count>
-__attribute__((always_inline)) inline void rhythmic(const double* cosines, const double* sines,
-                                                    const double* precision, int M,
-                                                    const double (&phases)[rows_count],
-                                                    double* rows) {
-  double ones[rows_count];
-  for (int i = 0; i < rows_count; ++i) {
-    const double c = std::cos(phases[i]);
-    const double s = std::sin(phases[i]);
-    for (int j = 0; j < M; j += lanes) {
-      const Lanes cosine = c * SEAM_CONST_LANES(cosines + j) + s * SEAM_CONST_LANES(sines + j);
-      store((cosine - 1.0) * SEAM_CONST_LANES(precision + j), M - j, rows + i * M + j);
-    }
-    ones[i] = 1.0;
+  SEAM_INLINE void exponents(int j, WideLanes& v) const {
+    WideLanes c, s, center_c, center_s, factor;
+    set_halves(cosine[0], cosine[1], c);
+    set_halves(sine[0], sine[1], s);
+    set_twice(cosines + j, center_c);
+    set_twice(sines + j, center_s);
+    set_twice(precision + j, factor);
+    v = (c * center_c + s * center_s - 1.0) * factor;
   }
-  normalise(ones, M, rows);
+};
+
+// Visits ψ four kernels at a time, and sums it up. Where Σψ nearly vanishes, ψ is taken relative to the largest.
+template <class Family, class Visit>
+SEAM_INLINE void visit_relative(const Family& family, int M, const WideLanes& to, Visit visit,
+                                double (&sum)[2]) {
+  WideLanes total{};
+  for (int j = 0; j < M; j += lanes) {
+    WideLanes psi;
+    family.exponents(j, psi);
+    psi -= to;
+    exp_nonpositive(psi);
+    visit.add(j, psi);
+    total += psi;
+  }
+  sum[0] = (total[0] + total[1]) + (total[2] + total[3]);
+  sum[1] = (total[4] + total[5]) + (total[6] + total[7]);
 }
 
-SEAM_WIDEST_VECTORS void discrete_row(const double* centers, const double* precision, int M,
-                                      double phase, double* row) noexcept {
-  discrete(centers, precision, M, {phase}, row);
+template <class Family>
+SEAM_INLINE void largest_exponents(const Family& family, int M, WideLanes& largest) {
+  WideLanes top = WideLanes{} - std::numeric_limits<double>::max();
+  for (int j = 0; j < M; j += lanes) {
+    WideLanes exponents;
+    family.exponents(j, exponents);
+    top = exponents > top ? exponents : top;
+  }
+  set_halves(std::max(std::max(top[0], top[1]), std::max(top[2], top[3])),
+             std::max(std::max(top[4], top[5]), std::max(top[6], top[7])), largest);
 }
 
-SEAM_WIDEST_VECTORS void discrete_rows(const double* centers, const double* precision, int M,
-                                       double first, double second, double* rows) noexcept {
-  discrete(centers, precision, M, {first, second}, rows);
+template <class Family, class Visit>
+SEAM_INLINE void visit_kernels(const Family& family, int M, Visit visit, double (&sum)[2]) {
+  visit.clear();
+  visit_relative(family, M, WideLanes{}, visit, sum);
+  if (sum[0] >= least_sum && sum[1] >= least_sum) return;
+  WideLanes largest;
+  largest_exponents(family, M, largest);
+  visit.clear();
+  visit_relative(family, M, largest, visit, sum);
 }
 
-SEAM_WIDEST_VECTORS void rhythmic_row(const double* cosines, const double* sines,
-                                      const double* precision, int M, double phase,
-                                      double* row) noexcept {
-  rhythmic(cosines, sines, precision, M, {phase}, row);
+// ψ of the first phase as a row.
+struct Row {
+  double* row;
+  int M;
+
+  SEAM_INLINE void clear() const {}
+  SEAM_INLINE void add(int j, const WideLanes& psi) const {
+    for (int l = 0; l < lanes; ++l)
+      if (j + l < M) row[j + l] = psi[l];
+  }
+};
+
+// Σψw at both phases, eight coordinates at a time.
+struct WeightedSums {
+  const double* weights;
+  int stride;
+  double *first, *second;
+
+  SEAM_INLINE void clear() const {
+    for (int d = 0; d < stride; d += wide_lanes)
+      SEAM_WIDE(first + d) = SEAM_WIDE(second + d) = WideLanes{};
+  }
+  SEAM_INLINE void add(int j, const WideLanes& psi) const {
+    double p[wide_lanes];
+    SEAM_WIDE(p) = psi;
+    for (int d = 0; d < stride; d += wide_lanes) {
+      const double* w = weights + j * stride + d;
+      const WideLanes w0 = SEAM_CONST_WIDE(w);
+      const WideLanes w1 = SEAM_CONST_WIDE(w + stride);
+      const WideLanes w2 = SEAM_CONST_WIDE(w + 2 * stride);
+      const WideLanes w3 = SEAM_CONST_WIDE(w + 3 * stride);
+      SEAM_WIDE(first + d) += (p[0] * w0 + p[1] * w1) + (p[2] * w2 + p[3] * w3);
+      SEAM_WIDE(second + d) += (p[4] * w0 + p[5] * w1) + (p[6] * w2 + p[7] * w3);
+    }
+  }
+  SEAM_INLINE void scale(double by_first, double by_second) const {
+    for (int d = 0; d < stride; d += wide_lanes) {
+      SEAM_WIDE(first + d) *= by_first;
+      SEAM_WIDE(second + d) *= by_second;
+    }
+  }
+};
+
+template <class Family>
+SEAM_INLINE void fill_row(const Family& family, double s, const Row& row) {
+  double sum[2];
+  visit_kernels(family, row.M, row, sum);
+  for (int j = 0; j < row.M; ++j) row.row[j] *= s / sum[0];
 }
 
-SEAM_WIDEST_VECTORS void rhythmic_rows(const double* cosines, const double* sines,
-                                       const double* precision, int M, double first, double second,
-                                       double* rows) noexcept {
-  rhythmic(cosines, sines, precision, M, {first, second}, rows);
+template <class Family>
+SEAM_INLINE void sum_up(const Family& family, int M, double first, double second,
+                        const WeightedSums& f) {
+  double sum[2];
+  visit_kernels(family, M, f, sum);
+  f.scale(first / sum[0], second / sum[1]);
 }
 
-// Room for the last lanes.
-Eigen::ArrayXd padded_array(const Eigen::ArrayXd& values) {
-  Eigen::ArrayXd longer = Eigen::ArrayXd::Zero(padded(static_cast<int>(values.size())));
+SEAM_WIDEST_VECTORS void fill_row(const Discrete& family, const Row& row) noexcept {
+  fill_row(family, family.first, row);
+}
+SEAM_WIDEST_VECTORS void fill_row(const Rhythmic& family, const Row& row) noexcept {
+  fill_row(family, 1.0, row);
+}
+SEAM_WIDEST_VECTORS void sum_up(const Discrete& family, int M, const WeightedSums& f) noexcept {
+  sum_up(family, M, family.first, family.second, f);
+}
+SEAM_WIDEST_VECTORS void sum_up(const Rhythmic& family, int M, const WeightedSums& f) noexcept {
+  sum_up(family, M, 1.0, 1.0, f);
+}
+
+Eigen::ArrayXd filled_up(const Eigen::ArrayXd& values, double by) {
+  Eigen::ArrayXd longer = Eigen::ArrayXd::Constant(padded(static_cast<int>(values.size())), by);
   longer.head(values.size()) = values;
   return longer;
 }
@@ -150,13 +203,14 @@ Basis::Basis(const Primitive& primitive)
     : kind_(primitive.kind),
       alpha_(primitive.alpha),
       count_(primitive.kernels.count()),
-      centers_(padded_array(primitive.kernels.centers.array())),
-      precision_(padded_array(0.5 / primitive.kernels.widths.array().square())),
-      cosines_(centers_.cos()),
-      sines_(centers_.sin()) {}
+      centers_(filled_up(primitive.kernels.centers.array(), 2.0)),
+      precision_(filled_up(0.5 / primitive.kernels.widths.array().square(), nothing)),
+      cosines_(filled_up(primitive.kernels.centers.array().cos(), 0.0)),
+      sines_(filled_up(primitive.kernels.centers.array().sin(), 0.0)) {}
 
 double Basis::advance(double phase, double t, double tau) const noexcept {
-  return kind_ == Kind::discrete ? phase * std::exp(-alpha_ * t / tau) : phase + t / tau;
+  if (kind_ == Kind::rhythmic) return phase + t / tau;
+  return std::max(phase * std::exp(-alpha_ * t / tau), least_phase);
 }
 
 double Basis::time_to(double later, double phase, double tau) const noexcept {
@@ -176,16 +230,20 @@ double Basis::phase_rate(double phase, double tau) const noexcept {
 
 void Basis::regressor(double phase, double* row) const noexcept {
   if (kind_ == Kind::discrete)
-    discrete_row(centers_.data(), precision_.data(), count(), phase, row);
+    fill_row(Discrete{centers_.data(), precision_.data(), phase, phase}, {row, count_});
   else
-    rhythmic_row(cosines_.data(), sines_.data(), precision_.data(), count(), phase, row);
+    fill_row(Rhythmic(cosines_.data(), sines_.data(), precision_.data(), phase, phase),
+             {row, count_});
 }
 
-void Basis::regressors(double first, double second, double* rows) const noexcept {
+void Basis::forcing(double first, double second, const double* weights, int stride, double* f_first,
+                    double* f_second) const noexcept {
+  const WeightedSums sums{weights, stride, f_first, f_second};
   if (kind_ == Kind::discrete)
-    discrete_rows(centers_.data(), precision_.data(), count(), first, second, rows);
+    sum_up(Discrete{centers_.data(), precision_.data(), first, second}, count_, sums);
   else
-    rhythmic_rows(cosines_.data(), sines_.data(), precision_.data(), count(), first, second, rows);
+    sum_up(Rhythmic(cosines_.data(), sines_.data(), precision_.data(), first, second), count_,
+           sums);
 }
 
 // With ψ' = hψ and n = ψ/Σψ: n' = n(h − Σhn), and a = s·n.

@@ -11,46 +11,43 @@ namespace {
 constexpr double faded_phase = 0.05;  // x below which weights have lost their hold
 constexpr double least_share =
     0.1;  // of the first kernel against the strongest, to be changed alone
-constexpr double least_tau = 1e-6;   // [s]
-constexpr double largest_tau = 1e9;  // [s]
-constexpr double forgotten = 40.0;   // time constants after which an added forcing is nothing
+constexpr double forgotten = 40.0;  // time constants after which an added forcing is nothing
 
 const Primitive& valid(const Primitive& primitive) {
   primitive.validate();
   return primitive;
 }
 
-// f₀ = W·a₀ and f₁ = W·a₁, coordinates in blocks of four.
-SEAM_WIDEST_VECTORS void learned_forcing(const double* weights, int M, int stride,
-                                         const double* rows, double* first,
-                                         double* second) noexcept {
-  for (int d = 0; d < stride; d += lanes) {
-    Lanes sum0{};
-    Lanes sum1{};
-    const double* w = weights + d;
-    for (int j = 0; j < M; ++j, w += stride) {
-      sum0 += rows[j] * SEAM_CONST_LANES(w);
-      sum1 += rows[M + j] * SEAM_CONST_LANES(w);
-    }
-    SEAM_LANES(first + d) = sum0;
-    SEAM_LANES(second + d) = sum1;
-  }
+// What is smaller is nothing: numbers that the processor holds only slowly never come about.
+constexpr double least_magnitude = 1e-200;
+
+SEAM_INLINE void flush(WideLanes& v) {
+  const WideLanes magnitude = v < 0.0 ? -v : v;
+  v = magnitude > least_magnitude ? v : WideLanes{};
 }
 
 // e ← Φe + Γ(f₀, f_m, f₁)ᵀ for every coordinate; matrices by columns.
-SEAM_WIDEST_VECTORS void propagate(const double* __restrict P, const double* __restrict G,
-                                   int stride, const double* __restrict f0,
-                                   const double* __restrict fm, const double* __restrict f1,
-                                   double* __restrict offset, double* __restrict velocity,
-                                   double* __restrict lag) noexcept {
-  for (int d = 0; d < stride; ++d) {
-    const double y = P[0] * offset[d] + P[3] * velocity[d] + P[6] * lag[d] + G[0] * f0[d] +
-                     G[3] * fm[d] + G[6] * f1[d];
-    const double v = P[1] * offset[d] + P[4] * velocity[d] + P[7] * lag[d] + G[1] * f0[d] +
-                     G[4] * fm[d] + G[7] * f1[d];
-    offset[d] = y;
-    velocity[d] = v;
-    lag[d] = P[8] * lag[d];
+SEAM_WIDEST_VECTORS void propagate(const double* P, const double* G, int stride, const double* f0,
+                                   const double* fm, const double* f1, double* offset,
+                                   double* velocity, double* lag) noexcept {
+  for (int d = 0; d < stride; d += wide_lanes) {
+    const WideLanes e = SEAM_CONST_WIDE(offset + d);
+    const WideLanes v = SEAM_CONST_WIDE(velocity + d);
+    const WideLanes l = SEAM_CONST_WIDE(lag + d);
+    const WideLanes start = SEAM_CONST_WIDE(f0 + d);
+    const WideLanes middle = SEAM_CONST_WIDE(fm + d);
+    const WideLanes end = SEAM_CONST_WIDE(f1 + d);
+    WideLanes next_e =
+        (P[0] * e + P[3] * v) + (P[6] * l + G[0] * start) + (G[3] * middle + G[6] * end);
+    WideLanes next_v =
+        (P[1] * e + P[4] * v) + (P[7] * l + G[1] * start) + (G[4] * middle + G[7] * end);
+    WideLanes next_l = P[8] * l;
+    flush(next_e);
+    flush(next_v);
+    flush(next_l);
+    SEAM_WIDE(offset + d) = next_e;
+    SEAM_WIDE(velocity + d) = next_v;
+    SEAM_WIDE(lag + d) = next_l;
   }
 }
 
@@ -83,15 +80,15 @@ Execution::Execution(const Primitive& primitive)
       sample_(primitive.dimensions()) {
   const int D = primitive.dimensions();
   const int M = basis_.count();
-  const int stride = padded(D);
-  weights_.setZero(M, stride);
-  weights_.leftCols(D) = primitive.weights;
-  change_.setZero(M, stride);
-  for (Eigen::VectorXd* state :
-       {&extra_, &extra_rate_, &goal_, &offset_, &velocity_, &lag_, &f_start_, &f_middle_, &f_end_})
+  const int stride = padded(D, wide_lanes);
+  learned_.setZero(padded(M), stride);
+  learned_.topLeftCorner(M, D) = primitive.weights;
+  change_.setZero(padded(M), stride);
+  for (Eigen::VectorXd* state : {&extra_, &extra_rate_, &goal_, &offset_, &velocity_, &lag_,
+                                 &f_start_, &f_middle_, &f_end_, &faded_middle_, &faded_end_})
     state->setZero(stride);
   goal_.head(D) = primitive.goal;
-  rows_.setZero(2 * M);
+  row_.setZero(M);
   slope_.setZero(M);
   Sample start(D);
   start.position = primitive.start_position;
@@ -101,13 +98,13 @@ Execution::Execution(const Primitive& primitive)
 
 void Execution::reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept {
   join_ = join;
-  changed_ = extended_ = false;
+  fading_ = extended_ = false;
+  weights_ = learned_;
   change_.setZero();
   extra_.setZero();
   extra_rate_.setZero();
   since_join_ = since_extra_ = 0.0;
-  fade_time_ = M_PI * tau_;
-  extra_tau_ = tau_;
+  joined_tau_ = tau_;
   continue_at(at, phase, true);
 }
 
@@ -144,59 +141,57 @@ void Execution::extend(Eigen::Index d, Forcing missing) noexcept {
 }
 
 void Execution::change_weights(Eigen::Index d, Forcing missing) noexcept {
-  changed_ = true;
-  const auto row = rows_.head(basis_.count());
-  auto change = change_.col(d);
-  const double aa = row.squaredNorm();
+  fading_ = kind() == Kind::rhythmic;
+  auto change = (fading_ ? change_ : weights_).col(d).head(basis_.count());
+  const double aa = row_.squaredNorm();
   if (join_.method == Join::dmp2j) {
-    const double ab = row.dot(slope_);
+    const double ab = row_.dot(slope_);
     const double bb = slope_.squaredNorm();
     const double determinant = aa * bb - ab * ab;
-    change += row * ((bb * missing.value - ab * missing.rate) / determinant) +
+    change += row_ * ((bb * missing.value - ab * missing.rate) / determinant) +
               slope_ * ((aa * missing.rate - ab * missing.value) / determinant);
   } else if (join_.change == WeightChange::smallest) {
-    change += row * (missing.value / aa);
+    change += row_ * (missing.value / aa);
   } else {
     Eigen::Index kernel = 0;
-    if (join_.change == WeightChange::strongest) row.cwiseAbs().maxCoeff(&kernel);
-    change(kernel) += missing.value / row(kernel);
+    if (join_.change == WeightChange::strongest) row_.cwiseAbs().maxCoeff(&kernel);
+    change(kernel) += missing.value / row_(kernel);
   }
 }
 
 bool Execution::weights_hold() const noexcept {
   if (kind() == Kind::discrete && phase_ < faded_phase) return false;
-  const auto row = rows_.head(basis_.count());
-  const double aa = row.squaredNorm();
+  const double aa = row_.squaredNorm();
   if (!(aa > 1e-12)) return false;
   if (join_.method == Join::dmp2j) {
     const double own_rate =
         basis_.phase_rate(phase_, tau_) / (kind() == Kind::discrete ? phase_ : 1.0);
-    const double ab = row.dot(slope_);
+    const double ab = row_.dot(slope_);
     return aa * slope_.squaredNorm() - ab * ab >= aa * aa * own_rate * own_rate;
   }
   if (join_.change == WeightChange::first)
-    return std::abs(row(0)) > least_share * row.cwiseAbs().maxCoeff();
+    return std::abs(row_(0)) > least_share * row_.cwiseAbs().maxCoeff();
   return true;
 }
 
 // a(p) and ȧ at the present phase, with the amplitude.
 void Execution::evaluate_regressor() noexcept {
-  basis_.regressor(phase_, rows_.data());
-  basis_.slope(phase_, rows_.data(), slope_.data());
-  rows_.head(basis_.count()) *= amplitude_;
+  basis_.regressor(phase_, row_.data());
+  basis_.slope(phase_, row_.data(), slope_.data());
+  row_ *= amplitude_;
   slope_ *= amplitude_ * basis_.phase_rate(phase_, tau_);
 }
 
-// The forcing and its rate as they are: learned, changed and added.
+// The forcing and its rate as they are: weighted, fading and added.
 Execution::Forcing Execution::present(Eigen::Index d) const noexcept {
-  const auto row = rows_.head(basis_.count());
-  Forcing f{weights_.col(d).dot(row), weights_.col(d).dot(slope_)};
-  if (changed_) {
-    const double share = kind() == Kind::rhythmic ? fade(since_join_ / fade_time_) : 1.0;
-    const double slope =
-        kind() == Kind::rhythmic ? fade_slope(since_join_ / fade_time_) / fade_time_ : 0.0;
-    f.value += share * change_.col(d).dot(row);
-    f.rate += share * change_.col(d).dot(slope_) + slope * change_.col(d).dot(row);
+  const auto weights = weights_.col(d).head(basis_.count());
+  Forcing f{weights.dot(row_), weights.dot(slope_)};
+  if (fading_) {
+    const auto change = change_.col(d).head(basis_.count());
+    const double share = fade(since_join_ / fade_time());
+    const double slope = fade_slope(since_join_ / fade_time()) / fade_time();
+    f.value += share * change.dot(row_);
+    f.rate += share * change.dot(slope_) + slope * change.dot(row_);
   }
   if (extended_) {
     const double u = since_extra_ / extra_time();
@@ -231,48 +226,53 @@ Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noe
 }
 
 double Execution::extra_time() const noexcept {
-  return extra_tau_ / gains_.H;
+  return joined_tau_ / gains_.H;
+}
+
+double Execution::fade_time() const noexcept {
+  return M_PI * joined_tau_;
 }
 
 void Execution::step(double dt) noexcept {
   if (dt != dt_) set_step(dt);
-  const int M = basis_.count();
   const int stride = static_cast<int>(goal_.size());
-  const double middle = elapsed_ + 0.5 * dt;
+  const double middle = kind() == Kind::discrete ? phase_ * half_step_ : phase_ + half_step_;
   elapsed_ += dt;
   phase_ = basis_.advance(entry_phase_, elapsed_, tau_);
-  basis_.regressors(basis_.advance(entry_phase_, middle, tau_), phase_, rows_.data());
-  if (amplitude_ != 1.0) rows_ *= amplitude_;
-  learned_forcing(weights_.data(), M, stride, rows_.data(), f_middle_.data(), f_end_.data());
-  if (changed_ || extended_) {
-    add_corrections(0.5 * dt, rows_.data(), f_middle_);
-    add_corrections(dt, rows_.data() + M, f_end_);
-    since_join_ += dt;
-    since_extra_ += dt;
-    changed_ = changed_ && (kind() == Kind::discrete || since_join_ < fade_time_);
-    extended_ = extended_ && since_extra_ < forgotten * extra_time();
-  }
+  basis_.forcing(middle, phase_, weights_.data(), stride, f_middle_.data(), f_end_.data());
+  if (fading_) add_fading(middle, dt);
+  if (amplitude_ != 1.0) f_middle_ *= amplitude_, f_end_ *= amplitude_;
+  if (extended_) add_extra(dt);
   propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, f_start_.data(),
             f_middle_.data(), f_end_.data(), offset_.data(), velocity_.data(), lag_.data());
   f_start_.swap(f_end_);
   refresh_sample();
 }
 
-// What is changed and added, a time after now.
-void Execution::add_corrections(double ahead, const double* row,
-                                Eigen::VectorXd& f) const noexcept {
-  if (extended_) {
-    const double t = since_extra_ + ahead;
+// The change of a rhythmic primitive's weights, in a step whose phases at the middle and the end are given.
+void Execution::add_fading(double middle, double dt) noexcept {
+  basis_.forcing(middle, phase_, change_.data(), static_cast<int>(goal_.size()),
+                 faded_middle_.data(), faded_end_.data());
+  f_middle_ += fade((since_join_ + 0.5 * dt) / fade_time()) * faded_middle_;
+  since_join_ += dt;
+  f_end_ += fade(since_join_ / fade_time()) * faded_end_;
+  fading_ = since_join_ < fade_time();
+}
+
+void Execution::add_extra(double dt) noexcept {
+  const auto add = [this](double t, Eigen::VectorXd& f) {
     const double u = t / extra_time();
-    f += (std::exp(-u) * (1.0 + u)) * extra_ + (std::exp(-u) * t) * extra_rate_;
-  }
-  if (!changed_) return;
-  const double share = kind() == Kind::rhythmic ? fade((since_join_ + ahead) / fade_time_) : 1.0;
-  for (int j = 0; j < basis_.count(); ++j) f += (share * row[j]) * change_.row(j).transpose();
+    f += std::exp(-u) * (1.0 + u) * extra_ + std::exp(-u) * t * extra_rate_;
+  };
+  add(since_extra_ + 0.5 * dt, f_middle_);
+  since_extra_ += dt;
+  add(since_extra_, f_end_);
+  extended_ = since_extra_ < forgotten * extra_time();
 }
 
 void Execution::set_step(double dt) noexcept {
   dt_ = dt;
+  half_step_ = basis_.advance(basis_.start_phase(), 0.5 * dt, tau_);
   propagator_ = Propagator(gains_, tau_, dt);
 }
 
@@ -303,7 +303,7 @@ bool Execution::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept
 }
 
 bool Execution::set_tau(double tau) noexcept {
-  if (!(tau >= least_tau && tau <= largest_tau)) return false;
+  if (!(tau >= tau_bounds.least && tau <= tau_bounds.largest)) return false;
   if (tau == tau_) return true;
   const Sample& now = state();
   tau_ = tau;
@@ -322,11 +322,11 @@ bool Execution::set_amplitude(double amplitude) noexcept {
 }
 
 double Execution::correction(const Sample& at, double phase) noexcept {
-  basis_.regressor(phase, rows_.data());
-  rows_.head(basis_.count()) *= amplitude_;
+  basis_.regressor(phase, row_.data());
   double sum = 0.0;
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const double missing = needed(at, d).value - weights_.col(d).dot(rows_.head(basis_.count()));
+    const double learned = amplitude_ * learned_.col(d).head(basis_.count()).dot(row_);
+    const double missing = needed(at, d).value - learned;
     sum += missing * missing;
   }
   return sum / (tau_ * tau_ * tau_ * tau_);

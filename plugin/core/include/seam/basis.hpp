@@ -30,8 +30,10 @@ class Basis {
 
   /// a(p); count() values.
   void regressor(double phase, double* row) const noexcept;
-  /// a(p) at two phases at once, one row behind the other; 2·count() values.
-  void regressors(double first, double second, double* rows) const noexcept;
+  /// f = aᵀW at two phases at once. The rows of W, of `stride` values each, are filled up with zeros to a
+  /// multiple of four, and the stride to a multiple of eight; `stride` values of f at each phase.
+  void forcing(double first, double second, const double* weights, int stride, double* f_first,
+               double* f_second) const noexcept;
   /// da/dp at the phase for which a(p) is `row`; count() values.
   void slope(double phase, const double* row, double* slope) const noexcept;
 
@@ -39,7 +41,7 @@ class Basis {
   Kind kind_;
   double alpha_;
   int count_;
-  // Filled up with zeros to a multiple of four.
+  // Filled up to a multiple of four by kernels that vanish.
   Eigen::ArrayXd centers_;
   Eigen::ArrayXd precision_;        // 1/2σ²
   Eigen::ArrayXd cosines_, sines_;  // of the centres

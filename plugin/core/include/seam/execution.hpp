@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Core>
 
 #include <seam/basis.hpp>
@@ -80,11 +82,13 @@ class Execution {
   bool weights_hold() const noexcept;
   void evaluate_regressor() noexcept;
   void rebase_extra() noexcept;
-  double extra_time() const noexcept;
+  double extra_time() const noexcept;  // [s] time constant of what is added
+  double fade_time() const noexcept;   // [s] half a cycle
   Forcing present(Eigen::Index d) const noexcept;
   Forcing needed(const Sample& at, Eigen::Index d) const noexcept;
   void set_step(double dt) noexcept;
-  void add_corrections(double ahead, const double* row, Eigen::VectorXd& f) const noexcept;
+  void add_fading(double middle, double dt) noexcept;
+  void add_extra(double dt) noexcept;
   void refresh_sample() noexcept;
   double valley(const Sample& at, double low, double high) noexcept;
 
@@ -93,25 +97,26 @@ class Execution {
   double amplitude_ = 1.0;
   Basis basis_;
   JoinSettings join_;
-  // Coordinates lie behind one another, padded to a multiple of four.
-  Rows weights_;                        // M × D, as learned
-  Rows change_;                         // M × D, Δw of the last re-initialisation
+  // Coordinates lie behind one another, padded with zeros to a multiple of eight; kernels to one of four.
+  Rows learned_;                        // M × D
+  Rows weights_;                        // M × D, with Δw of a discrete primitive
+  Rows change_;                         // M × D, Δw of a rhythmic primitive
   Eigen::VectorXd extra_, extra_rate_;  // D, forcing added where weights have lost their hold
   Eigen::VectorXd goal_;
   Eigen::VectorXd offset_, velocity_, lag_;  // y − g, ẏ, r − g
   Eigen::VectorXd f_start_, f_middle_, f_end_;
-  Eigen::VectorXd rows_;   // 2M, a(p) at the middle and the end of a step
-  Eigen::VectorXd slope_;  // M, ȧ
-  bool changed_ = false;   // change_ is not zero
-  bool extended_ = false;  // extra_ is not zero
+  Eigen::VectorXd faded_middle_, faded_end_;  // what change_ would add in full
+  Eigen::VectorXd row_, slope_;               // M, a(p) and ȧ
+  bool fading_ = false;                       // change_ is not zero
+  bool extended_ = false;                     // extra_ is not zero
   Propagator propagator_;
-  double dt_ = 0.0;
+  double dt_ = std::numeric_limits<double>::quiet_NaN();
+  double half_step_ = 0.0;  // what half of dt does to the phase: a factor of x, an addend to φ
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
   double since_join_ = 0.0;   // [s] the age of change_
   double since_extra_ = 0.0;  // [s] the age of extra_
-  double fade_time_ = 1.0;    // [s] half a cycle
-  double extra_tau_ = 1.0;    // [s] tau when the execution was re-initialised
+  double joined_tau_ = 1.0;   // [s] tau when the execution was re-initialised
   double elapsed_ = 0.0;      // [s] since the last re-initialisation
   Sample sample_;
 };
