@@ -94,7 +94,7 @@ TEST(Basis, ForcingIsTheRegressorTimesTheWeightsAtBothPhases) {
             primitive_with(Kind::discrete, Kernels::even_in_time(M, 0.02, 2.0))}) {
         const Basis basis(primitive);
         using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-        Rows weights = Rows::Zero((M + 3) / 4 * 4, (D + 7) / 8 * 8);
+        Rows weights = Rows::Zero((M + 3) / 4 * 4, (D + 3) / 4 * 4);
         weights.topLeftCorner(M, D).setRandom();
         Eigen::VectorXd first(weights.cols()), second(weights.cols()), row(M);
         basis.forcing(0.83, 0.31, weights.data(), static_cast<int>(weights.cols()), first.data(),

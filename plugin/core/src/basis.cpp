@@ -15,180 +15,156 @@ constexpr double least_sum = 1e-200;  // of ψ; below it exponents are taken fro
 
 // exp(y) for y ≤ 0 to the last bit or two; flat below −700.
 // y = n·ln 2 + r, |r| ≤ ln 2/2, and the Taylor polynomial of degree 13 in r.
-SEAM_INLINE void exp_nonpositive(WideLanes& y) {
-  const WideLanes floor = WideLanes{} - 700.0;
-  const WideLanes clamped = y > floor ? y : floor;
-  const WideLanes shifted = clamped * 0x1.71547652b82fep0 + 0x1.8p52;
-  const WideLanes n = shifted - 0x1.8p52;
-  const WideLanes r = (clamped - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b3ap-40;
-  const WideLanes r2 = r * r;
-  const WideLanes r4 = r2 * r2;
-  const WideLanes low =
+SEAM_INLINE void exp_nonpositive(Lanes& y) {
+  const Lanes floor = Lanes{} - 700.0;
+  const Lanes clamped = y > floor ? y : floor;
+  const Lanes shifted = clamped * 0x1.71547652b82fep0 + 0x1.8p52;
+  const Lanes n = shifted - 0x1.8p52;
+  const Lanes r = (clamped - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b3ap-40;
+  const Lanes r2 = r * r;
+  const Lanes r4 = r2 * r2;
+  const Lanes low =
       (1.0 + r) + r2 * (0.5 + r * (1.0 / 6.0)) +
       r4 * ((1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0 + r * (1.0 / 5040.0)));
-  const WideLanes high = (1.0 / 40320.0 + r * (1.0 / 362880.0)) +
-                         r2 * (1.0 / 3628800.0 + r * (1.0 / 39916800.0)) +
-                         r4 * (1.0 / 479001600.0 + r * (1.0 / 6227020800.0));
-  const WideIntegers power = (reinterpret_cast<const WideIntegers&>(shifted) + 1023) << 52;
-  y = (low + r4 * r4 * high) * reinterpret_cast<const WideLanes&>(power);
+  const Lanes high = (1.0 / 40320.0 + r * (1.0 / 362880.0)) +
+                     r2 * (1.0 / 3628800.0 + r * (1.0 / 39916800.0)) +
+                     r4 * (1.0 / 479001600.0 + r * (1.0 / 6227020800.0));
+  const IntegerLanes power = (reinterpret_cast<const IntegerLanes&>(shifted) + 1023) << 52;
+  y = (low + r4 * r4 * high) * reinterpret_cast<const Lanes&>(power);
 }
 
-// Lanes hold four kernels at a first phase, then the same four at a second.
-SEAM_INLINE void set_halves(double first, double second, WideLanes& v) {
-  v = WideLanes{first, first, first, first, second, second, second, second};
-}
-SEAM_INLINE void set_twice(const double* four, WideLanes& v) {
-  const Lanes& half = SEAM_CONST_LANES(four);
-  v = __builtin_shufflevector(half, half, 0, 1, 2, 3, 0, 1, 2, 3);
-}
-
-// Exponents of ψ, of the kernels from j on.
+// The kernels at one phase or several.
+template <int phases>
 struct Discrete {
   const double *centers, *precision;
-  double first, second;
+  double x[phases];
 
-  SEAM_INLINE void exponents(int j, WideLanes& v) const {
-    WideLanes phases, center, factor;
-    set_halves(first, second, phases);
-    set_twice(centers + j, center);
-    set_twice(precision + j, factor);
-    const WideLanes distance = phases - center;
-    v = -(distance * distance) * factor;
+  SEAM_INLINE void exponents(int j, int i, Lanes& v) const {
+    const Lanes distance = x[i] - SEAM_CONST_LANES(centers + j);
+    v = -(distance * distance) * SEAM_CONST_LANES(precision + j);
   }
+  SEAM_INLINE double scale(int i) const { return x[i]; }
 };
 
+template <int phases>
 struct Rhythmic {
   const double *cosines, *sines, *precision;
-  double cosine[2], sine[2];
+  double cosine[phases], sine[phases];
 
-  Rhythmic(const double* of_cosines, const double* of_sines, const double* of_precision,
-           double first, double second)
-      : cosines(of_cosines),
-        sines(of_sines),
-        precision(of_precision),
-        cosine{std::cos(first), std::cos(second)},
-        sine{std::sin(first), std::sin(second)} {}
-
-  SEAM_INLINE void exponents(int j, WideLanes& v) const {
-    WideLanes c, s, center_c, center_s, factor;
-    set_halves(cosine[0], cosine[1], c);
-    set_halves(sine[0], sine[1], s);
-    set_twice(cosines + j, center_c);
-    set_twice(sines + j, center_s);
-    set_twice(precision + j, factor);
-    v = (c * center_c + s * center_s - 1.0) * factor;
+  SEAM_INLINE void exponents(int j, int i, Lanes& v) const {
+    v = (cosine[i] * SEAM_CONST_LANES(cosines + j) + sine[i] * SEAM_CONST_LANES(sines + j) - 1.0) *
+        SEAM_CONST_LANES(precision + j);
   }
+  SEAM_INLINE double scale(int) const { return 1.0; }
 };
 
-// Visits ψ four kernels at a time, and sums it up. Where Σψ nearly vanishes, ψ is taken relative to the largest.
-template <class Family, class Visit>
-SEAM_INLINE void visit_relative(const Family& family, int M, const WideLanes& to, Visit visit,
-                                double (&sum)[2]) {
-  WideLanes total{};
+// Shows a visitor ψ at every phase, four kernels at a time, and sums it up.
+template <int phases, class Family, class Visit>
+SEAM_INLINE void visit_relative(const Family& family, int M, const double (&to)[phases],
+                                Visit visit, double (&sum)[phases]) {
+  Lanes total[phases] = {};
+  visit.clear();
   for (int j = 0; j < M; j += lanes) {
-    WideLanes psi;
-    family.exponents(j, psi);
-    psi -= to;
-    exp_nonpositive(psi);
+    Lanes psi[phases];
+    for (int i = 0; i < phases; ++i) {
+      family.exponents(j, i, psi[i]);
+      psi[i] -= to[i];
+      exp_nonpositive(psi[i]);
+      total[i] += psi[i];
+    }
     visit.add(j, psi);
-    total += psi;
   }
-  sum[0] = (total[0] + total[1]) + (total[2] + total[3]);
-  sum[1] = (total[4] + total[5]) + (total[6] + total[7]);
+  for (int i = 0; i < phases; ++i)
+    sum[i] = (total[i][0] + total[i][1]) + (total[i][2] + total[i][3]);
 }
 
 template <class Family>
-SEAM_INLINE void largest_exponents(const Family& family, int M, WideLanes& largest) {
-  WideLanes top = WideLanes{} - std::numeric_limits<double>::max();
+SEAM_INLINE double largest_exponent(const Family& family, int M, int i) {
+  Lanes top = Lanes{} - std::numeric_limits<double>::max();
   for (int j = 0; j < M; j += lanes) {
-    WideLanes exponents;
-    family.exponents(j, exponents);
+    Lanes exponents;
+    family.exponents(j, i, exponents);
     top = exponents > top ? exponents : top;
   }
-  set_halves(std::max(std::max(top[0], top[1]), std::max(top[2], top[3])),
-             std::max(std::max(top[4], top[5]), std::max(top[6], top[7])), largest);
+  return std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
 }
 
-template <class Family, class Visit>
-SEAM_INLINE void visit_kernels(const Family& family, int M, Visit visit, double (&sum)[2]) {
-  visit.clear();
-  visit_relative(family, M, WideLanes{}, visit, sum);
-  if (sum[0] >= least_sum && sum[1] >= least_sum) return;
-  WideLanes largest;
-  largest_exponents(family, M, largest);
-  visit.clear();
-  visit_relative(family, M, largest, visit, sum);
+// Where Σψ nearly vanishes, ψ is taken relative to the largest.
+template <int phases, class Family, class Visit>
+SEAM_INLINE void visit_kernels(const Family& family, int M, Visit visit, double (&factor)[phases]) {
+  double shift[phases] = {};
+  double sum[phases];
+  visit_relative(family, M, shift, visit, sum);
+  if (!(*std::min_element(sum, sum + phases) >= least_sum)) {
+    for (int i = 0; i < phases; ++i) shift[i] = largest_exponent(family, M, i);
+    visit_relative(family, M, shift, visit, sum);
+  }
+  for (int i = 0; i < phases; ++i) factor[i] = family.scale(i) / sum[i];
 }
 
-// ψ of the first phase as a row.
+// ψ as a row.
 struct Row {
   double* row;
   int M;
 
   SEAM_INLINE void clear() const {}
-  SEAM_INLINE void add(int j, const WideLanes& psi) const {
+  SEAM_INLINE void add(int j, const Lanes (&psi)[1]) const {
     for (int l = 0; l < lanes; ++l)
-      if (j + l < M) row[j + l] = psi[l];
+      if (j + l < M) row[j + l] = psi[0][l];
   }
 };
 
-// Σψw at both phases, eight coordinates at a time.
+// Σψw at two phases, four coordinates at a time.
 struct WeightedSums {
   const double* weights;
   int stride;
-  double *first, *second;
+  double* sums[2];
 
   SEAM_INLINE void clear() const {
-    for (int d = 0; d < stride; d += wide_lanes)
-      SEAM_WIDE(first + d) = SEAM_WIDE(second + d) = WideLanes{};
+    for (double* sum : sums)
+      for (int d = 0; d < stride; d += lanes) SEAM_LANES(sum + d) = Lanes{};
   }
-  SEAM_INLINE void add(int j, const WideLanes& psi) const {
-    double p[wide_lanes];
-    SEAM_WIDE(p) = psi;
-    for (int d = 0; d < stride; d += wide_lanes) {
+  SEAM_INLINE void add(int j, const Lanes (&psi)[2]) const {
+    for (int d = 0; d < stride; d += lanes) {
       const double* w = weights + j * stride + d;
-      const WideLanes w0 = SEAM_CONST_WIDE(w);
-      const WideLanes w1 = SEAM_CONST_WIDE(w + stride);
-      const WideLanes w2 = SEAM_CONST_WIDE(w + 2 * stride);
-      const WideLanes w3 = SEAM_CONST_WIDE(w + 3 * stride);
-      SEAM_WIDE(first + d) += (p[0] * w0 + p[1] * w1) + (p[2] * w2 + p[3] * w3);
-      SEAM_WIDE(second + d) += (p[4] * w0 + p[5] * w1) + (p[6] * w2 + p[7] * w3);
+      for (int i = 0; i < 2; ++i)
+        SEAM_LANES(sums[i] + d) +=
+            (psi[i][0] * SEAM_CONST_LANES(w) + psi[i][1] * SEAM_CONST_LANES(w + stride)) +
+            (psi[i][2] * SEAM_CONST_LANES(w + 2 * stride) +
+             psi[i][3] * SEAM_CONST_LANES(w + 3 * stride));
     }
   }
-  SEAM_INLINE void scale(double by_first, double by_second) const {
-    for (int d = 0; d < stride; d += wide_lanes) {
-      SEAM_WIDE(first + d) *= by_first;
-      SEAM_WIDE(second + d) *= by_second;
-    }
+  SEAM_INLINE void scale(const double (&factor)[2]) const {
+    for (int i = 0; i < 2; ++i)
+      for (int d = 0; d < stride; d += lanes) SEAM_LANES(sums[i] + d) *= factor[i];
   }
 };
 
 template <class Family>
-SEAM_INLINE void fill_row(const Family& family, double s, const Row& row) {
-  double sum[2];
-  visit_kernels(family, row.M, row, sum);
-  for (int j = 0; j < row.M; ++j) row.row[j] *= s / sum[0];
+SEAM_INLINE void fill(const Family& family, const Row& row) {
+  double factor[1];
+  visit_kernels(family, row.M, row, factor);
+  for (int j = 0; j < row.M; ++j) row.row[j] *= factor[0];
 }
 
 template <class Family>
-SEAM_INLINE void sum_up(const Family& family, int M, double first, double second,
-                        const WeightedSums& f) {
-  double sum[2];
-  visit_kernels(family, M, f, sum);
-  f.scale(first / sum[0], second / sum[1]);
+SEAM_INLINE void sum_up(const Family& family, int M, const WeightedSums& f) {
+  double factor[2];
+  visit_kernels(family, M, f, factor);
+  f.scale(factor);
 }
 
-SEAM_WIDEST_VECTORS void fill_row(const Discrete& family, const Row& row) noexcept {
-  fill_row(family, family.first, row);
+SEAM_WIDEST_VECTORS void fill_row(const Discrete<1>& family, const Row& row) noexcept {
+  fill(family, row);
 }
-SEAM_WIDEST_VECTORS void fill_row(const Rhythmic& family, const Row& row) noexcept {
-  fill_row(family, 1.0, row);
+SEAM_WIDEST_VECTORS void fill_row(const Rhythmic<1>& family, const Row& row) noexcept {
+  fill(family, row);
 }
-SEAM_WIDEST_VECTORS void sum_up(const Discrete& family, int M, const WeightedSums& f) noexcept {
-  sum_up(family, M, family.first, family.second, f);
+SEAM_WIDEST_VECTORS void add_up(const Discrete<2>& family, int M, const WeightedSums& f) noexcept {
+  sum_up(family, M, f);
 }
-SEAM_WIDEST_VECTORS void sum_up(const Rhythmic& family, int M, const WeightedSums& f) noexcept {
-  sum_up(family, M, 1.0, 1.0, f);
+SEAM_WIDEST_VECTORS void add_up(const Rhythmic<2>& family, int M, const WeightedSums& f) noexcept {
+  sum_up(family, M, f);
 }
 
 Eigen::ArrayXd filled_up(const Eigen::ArrayXd& values, double by) {
@@ -230,20 +206,28 @@ double Basis::phase_rate(double phase, double tau) const noexcept {
 
 void Basis::regressor(double phase, double* row) const noexcept {
   if (kind_ == Kind::discrete)
-    fill_row(Discrete{centers_.data(), precision_.data(), phase, phase}, {row, count_});
+    fill_row(Discrete<1>{centers_.data(), precision_.data(), {phase}}, {row, count_});
   else
-    fill_row(Rhythmic(cosines_.data(), sines_.data(), precision_.data(), phase, phase),
+    fill_row(Rhythmic<1>{cosines_.data(),
+                         sines_.data(),
+                         precision_.data(),
+                         {std::cos(phase)},
+                         {std::sin(phase)}},
              {row, count_});
 }
 
 void Basis::forcing(double first, double second, const double* weights, int stride, double* f_first,
                     double* f_second) const noexcept {
-  const WeightedSums sums{weights, stride, f_first, f_second};
+  const WeightedSums sums{weights, stride, {f_first, f_second}};
   if (kind_ == Kind::discrete)
-    sum_up(Discrete{centers_.data(), precision_.data(), first, second}, count_, sums);
+    add_up(Discrete<2>{centers_.data(), precision_.data(), {first, second}}, count_, sums);
   else
-    sum_up(Rhythmic(cosines_.data(), sines_.data(), precision_.data(), first, second), count_,
-           sums);
+    add_up(Rhythmic<2>{cosines_.data(),
+                       sines_.data(),
+                       precision_.data(),
+                       {std::cos(first), std::cos(second)},
+                       {std::sin(first), std::sin(second)}},
+           count_, sums);
 }
 
 // With ψ' = hψ and n = ψ/Σψ: n' = n(h − Σhn), and a = s·n.

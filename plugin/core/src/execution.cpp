@@ -21,33 +21,31 @@ const Primitive& valid(const Primitive& primitive) {
 // What is smaller is nothing: numbers that the processor holds only slowly never come about.
 constexpr double least_magnitude = 1e-200;
 
-SEAM_INLINE void flush(WideLanes& v) {
-  const WideLanes magnitude = v < 0.0 ? -v : v;
-  v = magnitude > least_magnitude ? v : WideLanes{};
+SEAM_INLINE void flush(Lanes& v) {
+  const Lanes magnitude = v < 0.0 ? -v : v;
+  v = magnitude > least_magnitude ? v : Lanes{};
 }
 
 // e ← Φe + Γ(f₀, f_m, f₁)ᵀ for every coordinate; matrices by columns.
 SEAM_WIDEST_VECTORS void propagate(const double* P, const double* G, int stride, const double* f0,
                                    const double* fm, const double* f1, double* offset,
                                    double* velocity, double* lag) noexcept {
-  for (int d = 0; d < stride; d += wide_lanes) {
-    const WideLanes e = SEAM_CONST_WIDE(offset + d);
-    const WideLanes v = SEAM_CONST_WIDE(velocity + d);
-    const WideLanes l = SEAM_CONST_WIDE(lag + d);
-    const WideLanes start = SEAM_CONST_WIDE(f0 + d);
-    const WideLanes middle = SEAM_CONST_WIDE(fm + d);
-    const WideLanes end = SEAM_CONST_WIDE(f1 + d);
-    WideLanes next_e =
-        (P[0] * e + P[3] * v) + (P[6] * l + G[0] * start) + (G[3] * middle + G[6] * end);
-    WideLanes next_v =
-        (P[1] * e + P[4] * v) + (P[7] * l + G[1] * start) + (G[4] * middle + G[7] * end);
-    WideLanes next_l = P[8] * l;
+  for (int d = 0; d < stride; d += lanes) {
+    const Lanes e = SEAM_CONST_LANES(offset + d);
+    const Lanes v = SEAM_CONST_LANES(velocity + d);
+    const Lanes l = SEAM_CONST_LANES(lag + d);
+    const Lanes start = SEAM_CONST_LANES(f0 + d);
+    const Lanes middle = SEAM_CONST_LANES(fm + d);
+    const Lanes end = SEAM_CONST_LANES(f1 + d);
+    Lanes next_e = (P[0] * e + P[3] * v) + (P[6] * l + G[0] * start) + (G[3] * middle + G[6] * end);
+    Lanes next_v = (P[1] * e + P[4] * v) + (P[7] * l + G[1] * start) + (G[4] * middle + G[7] * end);
+    Lanes next_l = P[8] * l;
     flush(next_e);
     flush(next_v);
     flush(next_l);
-    SEAM_WIDE(offset + d) = next_e;
-    SEAM_WIDE(velocity + d) = next_v;
-    SEAM_WIDE(lag + d) = next_l;
+    SEAM_LANES(offset + d) = next_e;
+    SEAM_LANES(velocity + d) = next_v;
+    SEAM_LANES(lag + d) = next_l;
   }
 }
 
@@ -80,7 +78,7 @@ Execution::Execution(const Primitive& primitive)
       sample_(primitive.dimensions()) {
   const int D = primitive.dimensions();
   const int M = basis_.count();
-  const int stride = padded(D, wide_lanes);
+  const int stride = padded(D);
   learned_.setZero(padded(M), stride);
   learned_.topLeftCorner(M, D) = primitive.weights;
   change_.setZero(padded(M), stride);

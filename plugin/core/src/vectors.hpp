@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-// Hot loops work on four or eight doubles at a time, in an order that is written out. They are compiled three times and
-// the machine's widest vectors are chosen when the program starts; all give the same bits, since nothing is
-// reassociated or contracted. Not with sanitizers, whose runtime is not up when the choice is made.
+// Hot loops work on four doubles at a time, in an order that is written out. They are compiled twice and the machine's
+// widest vectors are chosen when the program starts; both give the same bits, since nothing is reassociated or
+// contracted. Not with sanitizers, whose runtime is not up when the choice is made.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SEAM_WIDEST_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
+#define SEAM_WIDEST_VECTORS __attribute__((target_clones("avx2", "default")))
 #else
 #define SEAM_WIDEST_VECTORS
 #endif
@@ -16,22 +16,17 @@
 namespace seam {
 
 inline constexpr int lanes = 4;
-inline constexpr int wide_lanes = 8;
 
-/// Doubles that may lie at any address; arithmetic is element by element.
-using Lanes = double __attribute__((vector_size(8 * lanes), aligned(8), may_alias));
-using WideLanes = double __attribute__((vector_size(8 * wide_lanes), aligned(8), may_alias));
-using WideIntegers =
-    std::uint64_t __attribute__((vector_size(8 * wide_lanes), aligned(8), may_alias));
+/// Four doubles, which may lie at any address; arithmetic is element by element.
+using Lanes = double __attribute__((vector_size(32), aligned(8), may_alias));
+using IntegerLanes = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
 
-/// The next multiple of a number of lanes.
-constexpr int padded(int size, int to = lanes) {
-  return (size + to - 1) / to * to;
+/// The next multiple of four.
+constexpr int padded(int size) {
+  return (size + lanes - 1) / lanes * lanes;
 }
 
 #define SEAM_LANES(pointer) (*reinterpret_cast<seam::Lanes*>(pointer))
 #define SEAM_CONST_LANES(pointer) (*reinterpret_cast<const seam::Lanes*>(pointer))
-#define SEAM_WIDE(pointer) (*reinterpret_cast<seam::WideLanes*>(pointer))
-#define SEAM_CONST_WIDE(pointer) (*reinterpret_cast<const seam::WideLanes*>(pointer))
 
 }  // namespace seam

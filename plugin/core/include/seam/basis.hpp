@@ -30,8 +30,8 @@ class Basis {
 
   /// a(p); count() values.
   void regressor(double phase, double* row) const noexcept;
-  /// f = aᵀW at two phases at once. The rows of W, of `stride` values each, are filled up with zeros to a
-  /// multiple of four, and the stride to a multiple of eight; `stride` values of f at each phase.
+  /// f = aᵀW at two phases at once. W is row-major, its rows and its columns (`stride` of them, as many values of
+  /// f at each phase) filled up with zeros to a multiple of four.
   void forcing(double first, double second, const double* weights, int stride, double* f_first,
                double* f_second) const noexcept;
   /// da/dp at the phase for which a(p) is `row`; count() values.

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <seam/basis.hpp>
+#include <seam/compensated_sum.hpp>
 #include <seam/join.hpp>
 #include <seam/primitive.hpp>
 #include <seam/propagator.hpp>
@@ -97,7 +98,7 @@ class Execution {
   double amplitude_ = 1.0;
   Basis basis_;
   JoinSettings join_;
-  // Coordinates lie behind one another, padded with zeros to a multiple of eight; kernels to one of four.
+  // Coordinates lie behind one another; they and the kernels are filled up with zeros to a multiple of four.
   Rows learned_;                        // M × D
   Rows weights_;                        // M × D, with Δw of a discrete primitive
   Rows change_;                         // M × D, Δw of a rhythmic primitive
@@ -117,7 +118,7 @@ class Execution {
   double since_join_ = 0.0;   // [s] the age of change_
   double since_extra_ = 0.0;  // [s] the age of extra_
   double joined_tau_ = 1.0;   // [s] tau when the execution was re-initialised
-  double elapsed_ = 0.0;      // [s] since the last re-initialisation
+  CompensatedSum elapsed_;    // [s] since the last re-initialisation
   Sample sample_;
 };
 
