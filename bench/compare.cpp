@@ -61,12 +61,11 @@ Run measured(const Play& full, const Play& half, const Play& dmp2) {
   run.method = full.method;
   run.recording = full.recording;
   run.metrics = measure(full.recording);
-  const RunMetrics finer = measure(half.recording);
-  run.torque_jump_order = jump_order(run.metrics.torque_jump_nm, finer.torque_jump_nm);
-  for (std::size_t i = 0; i < full.recording.joins.size(); ++i) {
-    run.joins.push_back(measure(full.recording, full.recording.joins[i]));
-    const JoinMetrics at_half = measure(half.recording, half.recording.joins[i]);
-    run.join_orders.push_back(jump_order(run.joins.back().torque_jump_nm, at_half.torque_jump_nm));
+  for (std::size_t i = 0; i < run.metrics.joins.size(); ++i) {
+    const double jump = run.metrics.joins[i].torque_jump_nm;
+    const JoinMetrics finer = measure(half.recording, half.recording.joins[i]);
+    run.join_orders.push_back(jump_order(jump, finer.torque_jump_nm));
+    if (jump == run.metrics.torque_jump_nm) run.torque_jump_order = run.join_orders.back();
   }
   run.deviation_peak_rad = deviation_peak(full.recording, dmp2.recording);
   run.real_time_factor = full.dt * full.recording.ticks() / full.wall;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,8 @@ struct Run {
   Join method = Join::dmp2;
   Recording recording;
   RunMetrics metrics;
-  std::vector<JoinMetrics> joins;
   std::vector<double> join_orders;  // of the torque jump at each join
-  double torque_jump_order = 0.0;   // of the worst join
+  double torque_jump_order = std::numeric_limits<double>::quiet_NaN();  // of the worst join
   double deviation_peak_rad = 0.0;  // [rad] of the reference from dmp2's
   double real_time_factor = 0.0;    // simulated time over wall time; not the same twice
 };

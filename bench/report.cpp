@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 
 Json joins_of(const Run& run) {
   Json joins = Json::array();
-  for (std::size_t i = 0; i < run.joins.size(); ++i) {
-    const JoinMetrics& join = run.joins[i];
+  for (std::size_t i = 0; i < run.metrics.joins.size(); ++i) {
+    const JoinMetrics& join = run.metrics.joins[i];
     joins.push_back({{"time", join.time},
                      {"metrics",
                       {{"torque_jump_nm", join.torque_jump_nm},

@@ -38,15 +38,15 @@ bool same_bits(const Recording& a, const Recording& b) {
 TEST(LineScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
   const std::vector<seam::Run> runs = compared(line, 2);
   const seam::Run& dmp2 = runs[0];
-  ASSERT_EQ(dmp2.joins.size(), 2U);
+  ASSERT_EQ(dmp2.metrics.joins.size(), 2U);
   for (std::size_t j = 0; j < 2; ++j) {
-    EXPECT_GT(dmp2.joins[j].torque_jump_nm, 10.0);
+    EXPECT_GT(dmp2.metrics.joins[j].torque_jump_nm, 10.0);
     EXPECT_NEAR(dmp2.join_orders[j], 0.0, 0.1);
     for (const seam::Run* run : {&runs[1], &runs[2]}) {
-      EXPECT_LE(run->joins[j].torque_jump_nm, 0.02 * dmp2.joins[j].torque_jump_nm)
+      EXPECT_LE(run->metrics.joins[j].torque_jump_nm, 0.02 * dmp2.metrics.joins[j].torque_jump_nm)
           << to_string(run->method);
       EXPECT_GE(run->join_orders[j], 0.9) << to_string(run->method);
-      EXPECT_LE(run->joins[j].acceleration_jump_rad_s2,
+      EXPECT_LE(run->metrics.joins[j].acceleration_jump_rad_s2,
                 1e-9 * run->recording.ref_acc.cwiseAbs().maxCoeff());
     }
   }

@@ -66,7 +66,7 @@ RunMetrics measure(const Recording& recording) {
   if (recording.ticks() < 2) throw Error("recording", "fewer than 2 ticks");
   RunMetrics metrics;
   for (const RecordedJoin& join : recording.joins) {
-    const JoinMetrics at = measure(recording, join);
+    const JoinMetrics& at = metrics.joins.emplace_back(measure(recording, join));
     metrics.torque_jump_nm = worse(metrics.torque_jump_nm, at.torque_jump_nm);
     metrics.torque_jump_percent = worse(metrics.torque_jump_percent, at.torque_jump_percent);
     metrics.acceleration_jump_rad_s2 =

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include <seam/recording.hpp>
@@ -30,6 +32,7 @@ struct JoinMetrics {
 
 /// A whole run. Derivatives are differences between neighbouring ticks.
 struct RunMetrics {
+  std::vector<JoinMetrics> joins;
   double torque_jump_nm = 0.0;  // worst over the joins
   double torque_jump_percent = 0.0;
   double acceleration_jump_rad_s2 = 0.0;
