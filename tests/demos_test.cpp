@@ -9,7 +9,8 @@ namespace seam {
 namespace {
 
 const std::string folder = std::string(SEAM_ASSETS) + "/demos/";
-const std::vector<std::string> motions{"reach", "pour", "wipe", "carry_lift", "carry_place"};
+const std::vector<std::string> motions{"reach",       "pour",          "wipe",     "carry_lift",
+                                       "carry_place", "wipe_approach", "wipe_away"};
 
 LearnSettings settings_of(const std::string& motion) {
   LearnSettings settings;

@@ -46,6 +46,8 @@ function follow(t,   s, p) {
     move(0.62, 0.12, 0.30, 0.66, 0.13, 0.34, 0, 0.004, 1.3 * s)
     tilt = 1.75 * travelled(s)
   }
+  if (motion == "wipe_approach") move(0.42, -0.22, 0.22, 0.58, -0.01, 0.02, 0.02, -0.02, s)
+  if (motion == "wipe_away") move(0.57, 0.06, 0.03, 0.44, -0.20, 0.24, 0.02, 0.02, s)
   if (motion == "wipe") {
     p = 2 * pi * t / 1.2
     x = 0.55 + 0.060 * cos(p) + 0.006 * cos(2 * p + 0.7)
@@ -68,7 +70,7 @@ function row(t,   c) {
 
 BEGIN {
   pi = atan2(0, -1)
-  split("reach 1.2 11 pour 2.2 22 wipe 7.2 33 carry_lift 1.0 44 carry_place 1.0 55", list, " ")
+  split("reach 1.2 11 pour 2.2 22 wipe 7.2 33 carry_lift 1.0 44 carry_place 1.0 55 wipe_approach 1.0 66 wipe_away 1.1 77", list, " ")
   for (i = 1; i in list; i += 3)
     if (list[i] == motion) { duration = list[i + 1]; seed = list[i + 2] }
   turns = motion == "reach" || motion == "pour"
