@@ -36,7 +36,8 @@ struct JoinEvent {
 class Sequencer {
  public:
   /// @param start  state to begin in, usually at rest where the arm is; it is joined to as well
-  /// @throws Error  the sequence is empty, or start has other dimensions or is not finite
+  /// @throws Error  the sequence is empty, start has other dimensions or is not finite, or it is not at rest where the
+  ///                first primitive is delayed
   Sequencer(const Sequence& sequence, const JoinSettings& join, const Sample& start);
 
   /// Advances by dt [s] ≥ 0.
@@ -92,8 +93,7 @@ class Sequencer {
  private:
   struct Item {
     Execution execution;
-    std::optional<Execution>
-        rest;  // what settles at the goal of a rhythmic one that nothing follows
+    std::optional<Execution> rest;  // settles at the goal of a rhythmic one that nothing follows
     Switch until;
     Entry entry;
   };
