@@ -23,6 +23,26 @@ TEST(Sequence, KnowsWhenEachSwitchIsDue) {
   EXPECT_EQ(sequence.coordinates(), primitive.coordinates);
 }
 
+TEST(Sequence, KnowsWhenARhythmIsDueWhereverItIsEntered) {
+  std::mt19937_64 random(17);
+  Primitive rhythm = test::random_primitive(random, 2, 20, Kind::rhythmic);
+  rhythm.tau = 0.25;
+  const auto duration = [&](const Switch& until, const Entry& entry) {
+    return Sequence().then(rhythm).until(until).enter(entry).duration();
+  };
+  EXPECT_DOUBLE_EQ(duration(at_phase(3.0), {}), 0.75);
+  EXPECT_DOUBLE_EQ(duration(at_phase(3.0), from_phase(1.0)), 0.5);
+  EXPECT_DOUBLE_EQ(duration(at_phase(1.0), from_phase(3.0)), 0.25 * (2.0 * M_PI - 2.0));
+  EXPECT_DOUBLE_EQ(duration(at_phase(1.0), from_phase(1.0)), 0.25 * 2.0 * M_PI);
+  EXPECT_EQ(duration(at_phase(1.0), least_correction()), INFINITY);
+  for (const Entry& entry : {Entry{}, from_phase(1.0), least_correction()}) {
+    EXPECT_DOUBLE_EQ(duration(after_cycles(2.0), entry), M_PI);
+    EXPECT_EQ(duration(after(0.7), entry), 0.7);
+    EXPECT_EQ(duration(near_goal(0.1), entry), INFINITY);
+    EXPECT_EQ(duration(on_call(), entry), INFINITY);
+  }
+}
+
 TEST(Sequence, RefusesWhatCannotBePlayed) {
   std::mt19937_64 random(15);
   Primitive primitive = test::random_primitive(random, 2);

@@ -84,45 +84,106 @@ TEST(Sequencer, TakesSeveralSwitchesWithinOneStep) {
   EXPECT_LT((sequencer.sample().position - played.sequence.steps()[1].primitive.goal).norm(), 1e-3);
 }
 
-// Discrete, rhythmic, discrete: the whole sequence against an independent solution, with joins at any phase.
-TEST(Sequencer, AgreesWithAnIndependentSolutionOfTheWholeSequence) {
-  for (const Join method : {Join::dmp2a, Join::dmp3}) {
-    std::mt19937_64 random(24);
-    const Primitive parts[] = {test::random_primitive(random, 2),
-                               test::random_primitive(random, 2, 20, Kind::rhythmic),
-                               test::random_primitive(random, 2, 12)};
-    Sequence sequence;
-    sequence.then(parts[0])
-        .until(after(0.6))
-        .then(parts[1])
-        .enter(from_phase(2.0))
-        .until(after(0.8))
-        .then(parts[2]);
-    const Sample start = Sample::at_rest(parts[0].start_position);
-    Sequencer sequencer(sequence, method, start);
-    const auto joined = [&](const Primitive& primitive, const test::Ode* before) {
-      const double phase = primitive.kind == Kind::rhythmic ? 2.0 : 1.0;
-      test::Ode ode(primitive, 1, before ? before->y : test::Ode::Real(start.position(1)),
-                    before ? before->yd : 0.0L, phase);
-      const test::Ode::Real ydd = before ? before->acceleration() : 0.0L;
-      method == Join::dmp3 ? ode.join_dmp3(ydd) : ode.join_dmp2a(ydd);
-      return ode;
-    };
-    test::Ode ode = joined(parts[0], nullptr);
-    double worst = 0.0;
-    double low = start.position(1);
-    double high = low;
-    for (int k = 1; k <= 2000; ++k) {
-      sequencer.step(1e-3);
-      ode.advance(1e-3L, 10);
-      const double y = sequencer.sample().position(1);
-      worst = std::max(worst, std::abs(y - static_cast<double>(ode.y)));
-      low = std::min(low, y), high = std::max(high, y);
-      if (k == 600) ode = joined(parts[1], &ode);
-      if (k == 1400) ode = joined(parts[2], &ode);
+// The state that a method leaves at a join, for every coordinate by itself.
+std::vector<test::Ode> joined(const Primitive& primitive, Join method, double phase,
+                              const Sample& start, const std::vector<test::Ode>& before) {
+  std::vector<test::Ode> odes;
+  for (int d = 0; d < primitive.dimensions(); ++d) {
+    const test::Ode* from = before.empty() ? nullptr : &before[static_cast<std::size_t>(d)];
+    const test::Ode::Real y = from ? from->y : start.position(d);
+    const test::Ode::Real yd = from ? from->yd : start.velocity(d);
+    const test::Ode::Real ydd = from ? from->acceleration() : start.acceleration(d);
+    test::Ode ode(primitive, d, y, yd, phase);
+    if (method == Join::dmp3) ode.join_dmp3(ydd);
+    if (method == Join::dmp2a) ode.join_dmp2a(ydd);
+    odes.push_back(ode);
+  }
+  return odes;
+}
+
+// Largest differences from an independent solution, a share of each coordinate's range, over 2 s of a discrete, a
+// rhythmic and a discrete primitive; at ticks of 1 ms and of 0.5 ms.
+Eigen::ArrayX2d error_of_the_whole(Join method, int D, double period, int ode_steps) {
+  std::mt19937_64 random(24);
+  Primitive parts[] = {test::random_primitive(random, D),
+                       test::random_primitive(random, D, 20, Kind::rhythmic),
+                       test::random_primitive(random, D, 12)};
+  parts[1].tau = period / (2.0 * M_PI);
+  Sequence sequence;
+  sequence.then(parts[0]).until(after(0.6));
+  sequence.then(parts[1]).enter(from_phase(2.0)).until(after(0.8)).then(parts[2]);
+  Sample start = Sample::at_rest(parts[0].start_position);
+  start.velocity = parts[0].start_velocity;
+  start.acceleration = parts[0].start_acceleration;
+  Sequencer at_1ms(sequence, method, start);
+  Sequencer at_half = at_1ms;
+  std::vector<test::Ode> odes = joined(parts[0], method, 1.0, start, {});
+  Eigen::ArrayX2d worst = Eigen::ArrayX2d::Zero(D, 2);
+  Eigen::ArrayXd low = start.position;
+  Eigen::ArrayXd high = low;
+  for (int k = 1; k <= 2000; ++k) {
+    at_1ms.step(1e-3);
+    for (int i = 0; i < 2; ++i) at_half.step(5e-4);
+    Eigen::ArrayXd y(D);
+    for (int d = 0; d < D; ++d) {
+      test::Ode& ode = odes[static_cast<std::size_t>(d)];
+      ode.advance(1e-3L, ode_steps);
+      y(d) = static_cast<double>(ode.y);
     }
-    EXPECT_LT(worst / (high - low), 1e-9) << to_string(method);
-    EXPECT_EQ(sequencer.joins(), 3);
+    worst.col(0) = worst.col(0).max((at_1ms.sample().position.array() - y).abs());
+    worst.col(1) = worst.col(1).max((at_half.sample().position.array() - y).abs());
+    low = low.min(y);
+    high = high.max(y);
+    if (k == 600) odes = joined(parts[1], method, 2.0, start, odes);
+    if (k == 1400) odes = joined(parts[2], method, 1.0, start, odes);
+  }
+  EXPECT_EQ(at_1ms.joins(), 3);
+  return worst.colwise() / (high - low);
+}
+
+TEST(Sequencer, AgreesWithAnIndependentSolutionOfTheWholeSequence) {
+  for (const Join method : {Join::dmp2, Join::dmp2a, Join::dmp3})
+    EXPECT_LT(error_of_the_whole(method, 5, 1.0, 10).col(0).maxCoeff(), 1e-9) << to_string(method);
+}
+
+// A rhythm of 0.4 s needs shorter ticks for that: what is left falls with their fourth power.
+TEST(Sequencer, IsOfFourthOrderInTheTick) {
+  for (const Join method : {Join::dmp2a, Join::dmp3}) {
+    const Eigen::ArrayX2d error = error_of_the_whole(method, 2, 0.4, 30);
+    EXPECT_LT(error.maxCoeff(), 1e-6) << to_string(method);
+    EXPECT_GT((error.col(0) / error.col(1)).minCoeff(), 12.0) << to_string(method);
+  }
+}
+
+// The step in acceleration that dmp2 leaves, entered at each of 180 phases: none is smaller than the one that is chosen.
+TEST(Sequencer, EntersARhythmWhereTheLeastCorrectionIsNeeded) {
+  std::mt19937_64 random(26);
+  for (int i = 0; i < 10; ++i) {
+    const Primitive reach = test::random_primitive(random, 2);
+    const Primitive wipe = test::random_primitive(random, 2, 20, Kind::rhythmic);
+    const auto played = [&](const Entry& entry, Join method) {
+      Sequence sequence;
+      sequence.then(reach).until(after(0.4)).then(wipe).enter(entry);
+      Sequencer sequencer(sequence, method, Sample::at_rest(reach.start_position));
+      sequencer.step(0.4);
+      return sequencer;
+    };
+    const auto jump = [](const Sequencer& sequencer) {
+      return (sequencer.join(1).acceleration_after - sequencer.join(1).acceleration_before).norm();
+    };
+    const double spacing = 2.0 * M_PI / 180.0;
+    double least = INFINITY;
+    for (int k = 0; k < 180; ++k)
+      least = std::min(least, jump(played(from_phase(k * spacing), Join::dmp2)));
+    const Sequencer plain = played(least_correction(), Join::dmp2);
+    EXPECT_LE(jump(plain), least + 1e-9) << "seed 26, case " << i;
+    EXPECT_NEAR(jump(played(from_phase(plain.phase()), Join::dmp2)), jump(plain), 1e-9);
+    for (const Join method : {Join::dmp2a, Join::dmp3, Join::dmp2j}) {
+      // The predecessor's own join changes the state at 0.4 s, and with it the phase.
+      const Sequencer entered = played(least_correction(), method);
+      EXPECT_EQ(entered.running(), 1);
+      EXPECT_LT(jump(entered), 1e-10) << to_string(method) << ", seed 26, case " << i;
+    }
   }
 }
 
@@ -154,6 +215,17 @@ TEST(Switch, ComesAtItsTime) {
   EXPECT_NEAR(handed_over_at(Kind::rhythmic, at_phase(M_PI), from_phase(1.5 * M_PI)), 0.75, 1e-12);
 }
 
+TEST(Switch, ComesWhenTheSequenceSaysSo) {
+  for (const Switch until : {after(0.7), after_cycles(1.5), at_phase(1.0), at_phase(-20.0)})
+    for (const Entry& entry : {Entry{}, from_phase(1.0), from_phase(-3.0), from_phase(40.0)}) {
+      Sequence sequence;
+      sequence.then(slow(Kind::rhythmic)).until(until).enter(entry);
+      const double expected = sequence.duration();
+      EXPECT_GT(expected, 0.0);
+      EXPECT_NEAR(handed_over_at(Kind::rhythmic, until, entry), expected, 1e-12);
+    }
+}
+
 TEST(Switch, NearTheGoalComesAtTheFirstTickThatIsNear) {
   const double time = handed_over_at(Kind::discrete, near_goal(0.02));
   Execution alone(slow(Kind::discrete));
@@ -163,6 +235,30 @@ TEST(Switch, NearTheGoalComesAtTheFirstTickThatIsNear) {
     alone.step(1e-3);
   EXPECT_NEAR(time, 1e-3 * ticks, 1e-9);
   EXPECT_GT(ticks, 100);
+}
+
+// At another rate the ticks are closer in the motion's time.
+TEST(Switch, NearTheGoalComesAtTheFirstTickThatIsNearAtAnyRate) {
+  for (const double rate : {0.3, 1.7}) {
+    Sequence sequence;
+    sequence.then(slow(Kind::discrete)).until(near_goal(0.02)).then(slow(Kind::discrete));
+    const Sample start = Sample::at_rest(slow(Kind::discrete).start_position);
+    Sequencer sequencer(sequence, Join::dmp3, start);
+    Execution alone(slow(Kind::discrete));
+    alone.reinitialise(start, 1.0, Join::dmp3);
+    TimeScale clock;
+    ASSERT_TRUE(clock.change(rate, 0.1));
+    ASSERT_TRUE(sequencer.set_rate(rate, 0.1));
+    int ticks = 0;
+    for (; (alone.goal() - alone.sample().position).cwiseAbs().maxCoeff() > 0.02; ++ticks) {
+      ASSERT_EQ(sequencer.running(), 0) << "tick " << ticks << " at rate " << rate;
+      alone.step(clock.advance(1e-3));
+      sequencer.step(1e-3);
+    }
+    EXPECT_EQ(sequencer.running(), 1);
+    EXPECT_NEAR(sequencer.join(1).time, 1e-3 * ticks, 1e-9);
+    EXPECT_GT(ticks, 100);
+  }
 }
 
 TEST(Switch, OnCallComesWhenCalledAndNotBefore) {
@@ -241,6 +337,34 @@ TEST(Switch, FollowsAChangeOfTau) {
   ASSERT_TRUE(sequencer.set_tau(2.0));
   while (sequencer.joins() < 2) sequencer.step(1e-3);
   EXPECT_NEAR(sequencer.join(1).time, 0.5 + 1.0 - 0.2, 1e-9);  // the other half takes twice as long
+}
+
+// Two changes of tau; times by hand from x = exp(−αt/τ) and φ = t/τ.
+TEST(Switch, AtAPhaseOrAfterCyclesFollowsChangesOfTau) {
+  const auto handed_over = [](Kind kind, const Switch& until, const Entry& entry) {
+    Sequence sequence;
+    sequence.then(slow(kind)).until(until);
+    if (kind == Kind::rhythmic) sequence.enter(entry);
+    sequence.then(slow(Kind::discrete));
+    Sequencer sequencer(sequence, Join::dmp2a, Sample::at_rest(slow(kind).start_position));
+    const double tau = slow(kind).tau;
+    for (int k = 0; k < 10000 && sequencer.joins() < 2; ++k) {
+      const bool changes = k == 100 || k == 300;
+      EXPECT_TRUE(!changes || sequencer.set_tau(k == 100 ? 2.0 * tau : 0.5 * tau));
+      sequencer.step(1e-3);
+    }
+    return sequencer.joins() == 2 ? sequencer.join(1).time : INFINITY;
+  };
+  // 0.3 s in which 0.2 τ go by, then twice as fast.
+  const auto at = [](double taus) { return 0.3 + (taus - 0.2) / 2.0; };
+  EXPECT_NEAR(handed_over(Kind::discrete, at_phase(0.5), {}), at(0.5 * std::log(2.0)), 1e-12);
+  EXPECT_NEAR(handed_over(Kind::discrete, before_end(0.1), {}), at(1.0) - 0.1, 1e-12);
+  EXPECT_NEAR(handed_over(Kind::discrete, after(0.7), {}), 0.7, 1e-12);
+  EXPECT_NEAR(handed_over(Kind::rhythmic, after_cycles(1.5), {}), at(1.5), 1e-12);
+  EXPECT_NEAR(handed_over(Kind::rhythmic, after_cycles(1.5), from_phase(2.0)), at(1.5), 1e-12);
+  EXPECT_NEAR(handed_over(Kind::rhythmic, after_cycles(1.5), least_correction()), at(1.5), 1e-12);
+  EXPECT_NEAR(handed_over(Kind::rhythmic, at_phase(M_PI), {}), at(0.5), 1e-12);
+  EXPECT_NEAR(handed_over(Kind::rhythmic, at_phase(M_PI), from_phase(1.5 * M_PI)), at(0.75), 1e-12);
 }
 
 TEST(Queue, CanBeExtendedReplacedAndClearedWhileItRuns) {

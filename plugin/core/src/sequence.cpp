@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include <seam/basis.hpp>
 #include <seam/error.hpp>
 #include <seam/orientation.hpp>
 #include <seam/sequence.hpp>
@@ -32,23 +31,47 @@ void require_possible(const std::string& place, const Primitive& primitive, cons
 
 }  // namespace
 
-double due(const Primitive& primitive, const Switch& until, double entry_phase) {
-  const Basis basis(primitive);
+double phase_of(const Entry& entry, const Basis& basis) noexcept {
+  switch (entry.where) {
+    case Entry::Where::beginning:
+      return basis.start_phase();
+    case Entry::Where::phase:
+      return entry.phase;
+    case Entry::Where::least_correction:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double due(const Switch& until, const Basis& basis, const Progress& now) noexcept {
+  constexpr double never = std::numeric_limits<double>::infinity();
   switch (until.when) {
     case Switch::When::after:
       return until.value;
     case Switch::When::before_end:
-      return primitive.tau - until.value;
+      return now.time + now.tau - basis.time_to(now.phase, basis.start_phase(), now.tau) -
+             until.value;
     case Switch::When::cycles:
-      return 2.0 * M_PI * primitive.tau * until.value;
-    case Switch::When::at_phase:
-      return basis.time_to(basis.next(until.value, entry_phase), entry_phase, primitive.tau);
+      return now.time + now.tau * (2.0 * M_PI * until.value - now.turned);
+    case Switch::When::at_phase: {
+      const double phase = basis.next(until.value, now.phase - now.turned);
+      return std::isnan(phase) ? never : now.time + basis.time_to(phase, now.phase, now.tau);
+    }
     case Switch::When::near_goal:
     case Switch::When::on_call:
       break;
   }
-  return std::numeric_limits<double>::infinity();
+  return never;
 }
+
+namespace {
+
+double due_after_entry(const Primitive& primitive, const Switch& until, const Entry& entry) {
+  const Basis basis(primitive);
+  return due(until, basis, {primitive.tau, 0.0, phase_of(entry, basis), 0.0});
+}
+
+}  // namespace
 
 Sequence::Step& Sequence::last(const char* caller) {
   if (steps_.empty()) throw Error("sequence", std::string(caller) + "() before any primitive");
@@ -80,7 +103,7 @@ Sequence& Sequence::until(Switch when) {
   Step& step = last("until");
   const std::string place = name(steps_.size() - 1);
   require_possible(place, step.primitive, when);
-  const double seconds = due(step.primitive, when, Basis(step.primitive).start_phase());
+  const double seconds = due_after_entry(step.primitive, when, step.entry);
   if (!(seconds > 0.0))
     throw Error(place, "its switch is due " + std::to_string(seconds) +
                            " s after its start, must be > 0 (its tau is " +
@@ -106,14 +129,7 @@ const std::vector<std::string>& Sequence::coordinates() const {
 
 double Sequence::duration() const {
   double sum = start_delay_;
-  for (const Step& step : steps_) {
-    const double beginning = Basis(step.primitive).start_phase();
-    const bool from_phase = step.entry.where == Entry::Where::phase;
-    sum += due(step.primitive, step.until, from_phase ? step.entry.phase : beginning);
-    if (step.entry.where == Entry::Where::least_correction &&
-        step.until.when == Switch::When::at_phase)
-      return std::numeric_limits<double>::infinity();
-  }
+  for (const Step& step : steps_) sum += due_after_entry(step.primitive, step.until, step.entry);
   return sum;
 }
 

@@ -14,14 +14,15 @@ constexpr double same_tick = 1e-6;
 constexpr double most_slack = 1e-9;  // [s]
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// A discrete primitive without forcing: it settles at the goal.
-Primitive rest_of(const Primitive& primitive) {
+// In place of a rhythmic primitive a discrete one without forcing: it settles at the goal.
+std::optional<Execution> rest_of(const Primitive& primitive) {
+  if (primitive.kind == Kind::discrete) return std::nullopt;
   Primitive rest = primitive;
   rest.kind = Kind::discrete;
   rest.kernels = Kernels::even_in_time(10, 0.75, rest.alpha);
   rest.weights.setZero(rest.kernels.count(), rest.dimensions());
-  rest.tau = primitive.kind == Kind::rhythmic ? M_PI * primitive.tau : primitive.tau;
-  return rest;
+  rest.tau = M_PI * primitive.tau;
+  return Execution(rest);
 }
 
 bool usable(const Sample& at, int dimensions) {
@@ -44,7 +45,9 @@ Sequencer::Sequencer(const Sequence& sequence, const JoinSettings& join, const S
                                  " coordinates, the sequence " +
                                  std::to_string(coordinates_.size()));
   if (!usable(start, dimensions())) throw Error("sequencer", "start is not finite");
-  if (start_delay_ > 0.0 && !(start.velocity.isZero(0.0) && start.acceleration.isZero(0.0)))
+  const bool at_rest =
+      start.velocity.isZero(0.0) && start.acceleration.isZero(0.0) && start.jerk.isZero(0.0);
+  if (start_delay_ > 0.0 && !at_rest)
     throw Error("sequencer", "start moves, must be at rest where the first primitive is delayed");
   push(sequence);
   due_ = start_delay_;
@@ -58,16 +61,21 @@ void Sequencer::require_joinable(const Sequence& sequence) const {
                          sequence.steps().front().primitive.reference_orientation);
 }
 
+void Sequencer::forget_played() {
+  for (; first_ < running_; ++first_) items_.pop_front();
+  for (; first_join_ < joins_ - kept_joins; ++first_join_) events_.pop_front();
+}
+
 void Sequencer::push(const Sequence& sequence) {
   require_joinable(sequence);
+  forget_played();
   for (const Sequence::Step& step : sequence.steps())
-    items_.push_back(
-        {Execution(step.primitive), Execution(rest_of(step.primitive)), step.until, step.entry});
+    items_.push_back({Execution(step.primitive), rest_of(step.primitive), step.until, step.entry});
   JoinEvent event;
   event.acceleration_before.setZero(dimensions());
   event.acceleration_after = event.jerk_before = event.jerk_after = event.acceleration_before;
-  const std::size_t to_come = items_.size() - static_cast<std::size_t>(running_ + 1);
-  events_.resize(joins_ + to_come + 1, event);  // one more for settling at the end
+  const int expected = joins_ + to_come() + 1;  // one more for settling at the end
+  events_.resize(static_cast<std::size_t>(expected - first_join_), event);
 }
 
 void Sequencer::append(const Sequence& sequence) {
@@ -85,7 +93,7 @@ void Sequencer::replace(const Sequence& sequence) {
 }
 
 void Sequencer::clear() noexcept {
-  while (static_cast<int>(items_.size()) > running_ + 1) items_.pop_back();
+  while (to_come() > 0) items_.pop_back();
 }
 
 void Sequencer::step(double dt) noexcept {
@@ -101,6 +109,16 @@ void Sequencer::rescale() noexcept {
   scaled_.velocity = rate * motion().velocity;
   scaled_.acceleration =
       rate * rate * motion().acceleration + scale_.rate_change() * motion().velocity;
+}
+
+const Sample& Sequencer::state() noexcept {
+  const Sample& motion = running_ < 0 ? start_ : now().state();
+  if (scale_.is_real_time()) return motion;
+  const double rate = scale_.rate();
+  scaled_.jerk = rate * rate * rate * motion.jerk +
+                 3.0 * rate * scale_.rate_change() * motion.acceleration +
+                 scale_.rate_curvature() * motion.velocity;
+  return scaled_;
 }
 
 // By a time of the motion, in which real time advances by dt.
@@ -128,36 +146,15 @@ double Sequencer::due() const noexcept {
 
 // After what moves the switch: entering, a change of tau.
 void Sequencer::update_due() noexcept {
-  const Switch& until = items_[index()].until;
-  const Basis& basis = now().basis();
-  const double tau = now().tau();
   const double phase = now().phase();
-  switch (until.when) {
-    case Switch::When::after:
-      due_ = until.value;
-      break;
-    case Switch::When::before_end:
-      due_ = own_time_ + basis.time_to(basis.advance(1.0, 1.0, 1.0), phase, tau) - until.value;
-      break;
-    case Switch::When::cycles:
-      due_ = own_time_ + basis.time_to(entry_phase_ + 2.0 * M_PI * until.value, phase, tau);
-      break;
-    case Switch::When::at_phase:
-      due_ = own_time_ + basis.time_to(basis.next(until.value, phase), phase, tau);
-      break;
-    case Switch::When::near_goal:
-    case Switch::When::on_call:
-      due_ = never;
-      break;
-  }
+  due_ =
+      seam::due(item().until, now().basis(), {now().tau(), own_time_, phase, phase - entry_phase_});
 }
 
 bool Sequencer::near_goal() const noexcept {
   if (running_ < 0 || finished_) return false;
-  const Item& item = items_[index()];
-  return item.until.when == Switch::When::near_goal &&
-         (item.execution.goal() - item.execution.sample().position).cwiseAbs().maxCoeff() <=
-             item.until.value;
+  return item().until.when == Switch::When::near_goal &&
+         (now().goal() - now().sample().position).cwiseAbs().maxCoeff() <= item().until.value;
 }
 
 bool Sequencer::hand_over() noexcept {
@@ -168,19 +165,17 @@ bool Sequencer::hand_over() noexcept {
 }
 
 void Sequencer::switch_over() noexcept {
-  if (!is_last()) {
-    Item& next = items_[static_cast<std::size_t>(running_ + 1)];
-    double phase = next.execution.basis().start_phase();
-    if (next.entry.where == Entry::Where::phase) phase = next.entry.phase;
-    if (next.entry.where == Entry::Where::least_correction)
-      phase = next.execution.least_correction_phase(motion());
+  if (to_come() > 0) {
+    Item& next = items_[static_cast<std::size_t>(running_ + 1 - first_)];
+    double phase = phase_of(next.entry, next.execution.basis());
+    if (std::isnan(phase)) phase = next.execution.least_correction_phase(motion());
     join_to(next.execution, phase, running_ + 1);
     update_due();
     return;
   }
   finished_ = true;
   if (running_ >= 0 && now().kind() == Kind::rhythmic) {
-    Execution& rest = items_[index()].rest;
+    Execution& rest = *item().rest;
     rest.set_goal(now().goal());
     rest.set_tau(M_PI * now().tau());
     join_to(rest, rest.basis().start_phase(), running_);
@@ -192,7 +187,7 @@ void Sequencer::join_to(Execution& next, double phase, int primitive) noexcept {
   const Sample& before = running_ < 0 ? start_ : now().state();
   next.reinitialise(before, phase, join_);
   const Sample& after = next.state();
-  JoinEvent& event = events_[joins_++];
+  JoinEvent& event = events_[static_cast<std::size_t>(joins_++ - first_join_)];
   entered_ += own_time_;
   own_time_ = 0.0;
   running_ = primitive;

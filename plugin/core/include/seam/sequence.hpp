@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <seam/basis.hpp>
 #include <seam/primitive.hpp>
 
 namespace seam {
@@ -105,7 +106,19 @@ class Sequence {
   double start_delay_ = 0.0;
 };
 
-/// Time [s] from a primitive's beginning at a phase until its switch is due; infinite where that depends on the motion.
-double due(const Primitive& primitive, const Switch& until, double entry_phase);
+/// The phase that an entry means; NaN for least_correction, which depends on the motion.
+double phase_of(const Entry& entry, const Basis& basis) noexcept;
+
+/// How far a primitive has come.
+struct Progress {
+  double tau = 1.0;     // [s] what it is now
+  double time = 0.0;    // [s] since it began
+  double phase = 0.0;   // x or φ
+  double turned = 0.0;  // [rad] of φ since it began
+};
+
+/// Time [s] from a primitive's beginning until its switch is due, if it goes on from where it is with its present tau;
+/// infinite where that depends on the motion.
+double due(const Switch& until, const Basis& basis, const Progress& now) noexcept;
 
 }  // namespace seam

@@ -16,15 +16,15 @@ class TimeScale {
   /// Advances real time by dt [s] ≥ 0. @return  the time of the motion that goes by [s]
   double advance(double dt) noexcept;
 
-  double rate() const noexcept;         // ρ
-  double rate_change() const noexcept;  // ρ̇ [1/s]
+  double rate() const noexcept;            // ρ
+  double rate_change() const noexcept;     // ρ̇ [1/s]
+  double rate_curvature() const noexcept;  // ρ̈ [1/s²]
   /// s runs as t does.
   bool is_real_time() const noexcept { return elapsed_ >= over_ && to_ == 1.0; }
 
  private:
   double motion_time(double elapsed) const noexcept;
   double rate_at(double u) const noexcept;
-  double rate_curvature() const noexcept;  // ρ̈ [1/s²]
   bool never_negative() const noexcept;
 
   double from_ = 1.0, to_ = 1.0;
