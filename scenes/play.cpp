@@ -1,5 +1,7 @@
 #include "scenes/play.hpp"
 
+#include <algorithm>
+
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "scenes/world.hpp"
@@ -9,6 +11,8 @@
 namespace seam {
 
 namespace {
+
+constexpr double same_tick = 1e-6;  // of a tick
 
 Recording room_for(const Scene& scene, int ticks) {
   std::vector<std::string> names;
@@ -31,14 +35,30 @@ void record(const Controller::Tick& tick, double time, Eigen::Index row, Recordi
   recording.torque.row(row) = tick.torque;
 }
 
-std::vector<RecordedJoin> joins_of(const Sequencer& sequencer) {
-  std::vector<RecordedJoin> joins;
+double largest_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  return (after - before).cwiseAbs().maxCoeff();
+}
+
+// A change on the way is recorded as a join of the primitive with itself.
+void happen(const Event& event, const Scene& scene, double time, Sequencer& sequencer,
+            std::vector<RecordedJoin>& joins) {
+  const Eigen::VectorXd before = sequencer.sample().acceleration;
+  if (!event.happen(sequencer))
+    throw Error(scene.name, "what should happen at " + std::to_string(event.at) +
+                                " s cannot: nothing runs then, or nothing that it fits");
+  if (event.what != Event::What::hand_over)
+    joins.push_back(
+        {time, sequencer.running(), largest_step(before, sequencer.sample().acceleration)});
+}
+
+void add_joins(const Sequencer& sequencer, std::vector<RecordedJoin>& joins) {
   for (int i = 0; i < sequencer.joins(); ++i) {
     const JoinEvent& event = sequencer.join(i);
     joins.push_back({event.time, event.primitive,
-                     (event.acceleration_after - event.acceleration_before).cwiseAbs().maxCoeff()});
+                     largest_step(event.acceleration_before, event.acceleration_after)});
   }
-  return joins;
+  std::stable_sort(joins.begin(), joins.end(),
+                   [](const RecordedJoin& a, const RecordedJoin& b) { return a.time < b.time; });
 }
 
 }  // namespace
@@ -57,11 +77,14 @@ Recording play(const Scene& scene, Join method, double dt) {
 
   const int ticks = scene.ticks(dt);
   Recording recording = room_for(scene, ticks);
+  auto event = scene.events.begin();
   for (int k = 0; k < ticks; ++k) {
+    for (; event != scene.events.end() && event->at <= (k + same_tick) * dt; ++event)
+      happen(*event, scene, k * dt, controller.sequencer(), recording.joins);
     world->stepSimulation(dt, 0);
     record(controller.last_tick(), k * dt, k, recording);
   }
-  recording.joins = joins_of(controller.sequencer());
+  add_joins(controller.sequencer(), recording.joins);
   return recording;
 }
 

@@ -61,16 +61,34 @@ ControlSettings read_control(const YamlEntry& entry) {
   return control;
 }
 
+double at_most(const YamlEntry& entry, double seconds) {
+  if (seconds > most_seconds) entry.fail(entry.text() + ", must be <= 3600 s");
+  return seconds;
+}
+
+double read_duration(const YamlEntry& root, const Sequence& sequence) {
+  const auto settle = root.find("settle");
+  if (const auto duration = root.find("duration")) {
+    if (settle) settle->fail("has no meaning beside duration");
+    return at_most(*duration, duration->positive());
+  }
+  if (!(sequence.duration() < most_seconds))
+    root.at("sequence")
+        .fail("has no end that is known beforehand, or one beyond 3600 s: needs the key duration");
+  return sequence.duration() + (settle ? at_most(*settle, settle->not_negative()) : 1.0);
+}
+
 }  // namespace
 
 int Scene::ticks(double step) const {
-  return static_cast<int>(std::lround((sequence.duration() + settle) / step));
+  return static_cast<int>(std::lround(duration / step));
 }
 
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "sequence", "control", "dt", "settle", "figure"});
+  root.only({"format", "title", "robot", "sequence", "events", "control", "dt", "settle",
+             "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -78,12 +96,9 @@ Scene Scene::read(const std::string& path) {
   read_steps(root.at("sequence"), scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);
   if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt, scene.control);
-  if (const auto settle = root.find("settle")) {
-    scene.settle = settle->not_negative();
-    if (scene.settle > most_seconds) settle->fail(settle->text() + ", must be <= 3600 s");
-  }
-  if (!(scene.sequence.duration() < most_seconds))
-    root.at("sequence").fail("has no end that is known beforehand, or one beyond 3600 s");
+  if (const auto events = root.find("events"))
+    scene.events = read_events(*events, scene.sequence.coordinates());
+  scene.duration = read_duration(root, scene.sequence);
   const YamlEntry figure = root.at("figure");
   scene.figure = figure.text();
   at_key(figure, [&] { return scene.robot.joint(scene.figure); });

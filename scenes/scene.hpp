@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "scenes/event.hpp"
 #include <seam/computed_torque.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
@@ -23,11 +24,12 @@ struct Scene {
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
   ControlSettings control;
-  double dt = 1e-3;     // [s] Bullet's tick
-  double settle = 1.0;  // [s] that the run goes on after the last switch
-  std::string figure;   // the joint that the figure shows
+  double dt = 1e-3;       // [s] Bullet's tick
+  double duration = 0.0;  // [s] of a run
+  std::vector<Event> events;
+  std::string figure;  // the joint that the figure shows
 
-  int ticks(double step) const;  // of a whole run
+  int ticks(double step) const;  // of a run
 
   /// Reads a scene file (the format is explained in scenes/README.md).
   /// @throws Error  names file, line and key

@@ -78,6 +78,29 @@ TEST(LineScene, GivesTheSameBitsTwiceAndWithAnyNumberOfJobs) {
   }
 }
 
+// A goal that moves on the way steps the acceleration by K·Δg/τ² with dmp2 and not with the others.
+TEST(SceneEvents, ChangeTheGoalOnTheWayAndAreMeasuredLikeJoins) {
+  const TempFolder folder;
+  const std::string path =
+      folder.write("moved.yaml", test::replaced(test::scene_text("line"), "figure:",
+                                                "events:\n"
+                                                "  - {at: 0.6, goal: {E1: 1.5}}\n"
+                                                "  - {at: 1.6, rate: 0.5, over: 0.2}\n"
+                                                "figure:"));
+  const std::vector<seam::Run> runs = compared(path, 2);
+  const seam::Run& dmp2 = runs[0];
+  ASSERT_EQ(dmp2.metrics.joins.size(), 4U);
+  EXPECT_EQ(dmp2.metrics.joins[1].time, 0.6);
+  EXPECT_EQ(dmp2.recording.joins[1].primitive, 0);
+  EXPECT_NEAR(dmp2.metrics.joins[1].acceleration_jump_rad_s2, 200.0 * 0.1, 1e-6);
+  EXPECT_GT(dmp2.metrics.joins[1].torque_jump_nm, 10.0);
+  for (const seam::Run& run : {runs[1], runs[2], runs[3]}) {
+    EXPECT_LT(run.metrics.joins[1].acceleration_jump_rad_s2, 1e-9);
+    EXPECT_LT(run.metrics.joins[1].torque_jump_nm, 0.02 * dmp2.metrics.joins[1].torque_jump_nm);
+    EXPECT_GE(run.join_orders[3], 0.9);
+  }
+}
+
 class SceneRefuses : public testing::TestWithParam<BadFile> {};
 
 TEST_P(SceneRefuses, WithFileLineAndKey) {
@@ -115,6 +138,24 @@ INSTANTIATE_TEST_SUITE_P(
                 ":18: key \"dt\": 0.09, is too long for the control gains"},
         BadFile{"EndlessSettling", "settle: 1.0", "settle: 1e12",
                 ":19: key \"settle\": 1e12, must be <= 3600 s"},
+        BadFile{"EndlessRun", "settle: 1.0", "duration: 3601",
+                ":19: key \"duration\": 3601, must be <= 3600 s"},
+        BadFile{"UnknownDuration", "play: down", "play: down, until: on_call",
+                ":9: key \"sequence\": has no end that is known beforehand"},
+        BadFile{"SettlingBesideADuration", "settle: 1.0", "settle: 1.0\nduration: 3",
+                ":19: key \"settle\": has no meaning beside duration"},
+        BadFile{"EventOfNothing", "settle: 1.0", "events: [{at: 1}]",
+                ":19: key \"events\": must have one of goal, tau"},
+        BadFile{"EventOfTwoThings", "settle: 1.0", "events: [{at: 1, tau: 1, amplitude: 1}]",
+                ":19: key \"events\": must have one of goal, tau"},
+        BadFile{"EventBeforeTheRun", "settle: 1.0", "events: [{at: -1, tau: 1}]",
+                ":19: key \"at\": -1, must be >= 0"},
+        BadFile{"GoalOfNoCoordinate", "settle: 1.0", "events: [{at: 1, goal: {x: 1}}]",
+                ":19: key \"x\": is not among the sequence's coordinates"},
+        BadFile{"RateWithoutATime", "settle: 1.0", "events: [{at: 1, rate: 0.5}]",
+                ":19: key \"events\": needs the key \"over\""},
+        BadFile{"TimeOfNoRate", "settle: 1.0", "events: [{at: 1, tau: 0.5, over: 1}]",
+                ":19: key \"over\": goes with rate alone"},
         BadFile{"FigureOfAJointAtRest", "figure: E1", "figure: S1",
                 ":20: key \"figure\": \"S1\", is moved by no primitive"},
         BadFile{"NotFinite", "settle: 1.0", "settle: .inf",

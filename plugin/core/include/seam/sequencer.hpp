@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/compensated_sum.hpp>
 #include <seam/execution.hpp>
 #include <seam/join.hpp>
 #include <seam/sequence.hpp>
@@ -74,6 +75,10 @@ class Sequencer {
   const Sample& state() noexcept;
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
   double rate() const noexcept { return scale_.rate(); }
+  /// Goal of what runs now, or runs first.
+  Eigen::VectorXd::ConstSegmentReturnType goal() const noexcept {
+    return running_ < 0 ? items_.front().execution.goal() : now().goal();
+  }
   int running() const noexcept {
     return running_;
   }  // index of the primitive; -1 while still waiting
@@ -129,9 +134,9 @@ class Sequencer {
   int joins_ = 0;
   TimeScale scale_;
   Sample scaled_;             // the motion in real time, where that is another
-  double behind_ = 0.0;       // [s] of the motion's time behind real time
-  double entered_ = 0.0;      // [s] when what runs now began
-  double own_time_ = 0.0;     // [s] since then
+  CompensatedSum behind_;     // [s] of the motion's time behind real time
+  CompensatedSum entered_;    // [s] when what runs now began
+  CompensatedSum own_time_;   // [s] since then
   double due_ = 0.0;          // [s] of own time, when its switch is due
   double entry_phase_ = 0.0;  // of what runs now
   int running_ = -1;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <seam/sequencer.hpp>
+
+namespace seam {
+
+class YamlEntry;
+
+/// Something that happens to a running sequence at a time.
+struct Event {
+  enum class What { goal, tau, amplitude, rate, hand_over };
+
+  double at = 0.0;  // [s] since the run began; takes effect at the first tick then or later
+  What what = What::goal;
+  Eigen::VectorXd goal;  // D; NaN where a coordinate's goal stays
+  double value = 0.0;    // tau [s], amplitude or rate
+  double over = 0.0;     // [s] in which the rate changes
+
+  /// False where the sequencer refuses it (an amplitude of a discrete primitive, say).
+  bool happen(Sequencer& sequencer) const noexcept;
+};
+
+/// Reads the list `events:` of a scene (see scenes/README.md), sorted by time.
+/// @throws Error  names file, line and key
+std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::string>& coordinates);
+
+}  // namespace seam
