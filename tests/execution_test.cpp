@@ -8,67 +8,156 @@
 namespace seam {
 namespace {
 
-// Largest distance from an independent solution after a join to a moving start, relative to the range of the motion.
-double worst_error(const Primitive& primitive, double dt, double duration, Join method) {
-  Execution execution(primitive);
-  Sample at(primitive.dimensions());
-  at.position = primitive.start_position;
-  at.velocity = primitive.start_velocity;
-  at.acceleration.setConstant(2.0);
-  const double phase = primitive.kind == Kind::rhythmic ? 0.7 : 1.0;
-  execution.reinitialise(at, phase, method);
-  std::vector<test::Ode> solutions;
-  for (int d = 0; d < primitive.dimensions(); ++d) {
-    solutions.emplace_back(primitive, d, at.position(d), at.velocity(d), phase);
-    if (method == Join::dmp3) solutions.back().join_dmp3(2.0L);
-    if (method == Join::dmp2a) solutions.back().join_dmp2a(2.0L);
+constexpr double ode_step = 5e-5;
+
+const std::vector<JoinSettings> methods{Join::dmp2,
+                                        Join::dmp2a,
+                                        {Join::dmp2a, WeightChange::first},
+                                        {Join::dmp2a, WeightChange::strongest},
+                                        Join::dmp3,
+                                        Join::dmp2j};
+
+std::string word(Kind kind) {
+  return kind == Kind::discrete ? "Discrete" : "Rhythmic";
+}
+
+std::string word(const JoinSettings& join) {
+  const char* changes[] = {"", "First", "Strongest"};
+  return std::string(to_string(join.method)) + changes[static_cast<int>(join.change)];
+}
+
+// An execution and an independent solution of the same sequence. Each hands over its own state, so that the errors of the
+// whole sequence add up.
+class SideBySide {
+ public:
+  SideBySide(const Primitive& first, double dt, double fine = ode_step)
+      : dt_(dt), fine_(fine), execution_(first), ode_(first), worst_(first.dimensions()) {
+    worst_.setZero();
+    low_ = high_ = first.start_position;
   }
-  double worst = 0.0;
-  double low = at.position(0);
-  double high = low;
-  for (double t = dt; t < duration; t += dt) {
-    execution.step(dt);
-    for (int d = 0; d < primitive.dimensions(); ++d) {
-      test::Ode& solution = solutions[static_cast<std::size_t>(d)];
-      solution.advance(dt, static_cast<int>(std::lround(dt / 1e-4)));
-      const double y = execution.sample().position(d);
-      worst = std::max(worst, std::abs(y - static_cast<double>(solution.y)));
-      low = std::min(low, y), high = std::max(high, y);
+
+  void join(const Primitive& next, double phase, const JoinSettings& with) {
+    const Sample at = execution_.state();
+    const test::Ode::Matrix motion = ode_.motion();
+    execution_ = Execution(next);
+    execution_.reinitialise(at, phase, with);
+    ode_ = test::Ode(next);
+    ode_.join(motion, phase, with);
+  }
+  void start(const JoinSettings& with) {
+    Sample at(execution_.dimensions());
+    at.position = ode_.primitive.start_position;
+    at.acceleration.setConstant(2.0);
+    at.jerk.setConstant(-20.0);
+    test::Ode::Matrix motion(at.position.size(), 4);
+    motion << at.position.cast<test::Ode::Real>(), at.velocity.cast<test::Ode::Real>(),
+        at.acceleration.cast<test::Ode::Real>(), at.jerk.cast<test::Ode::Real>();
+    const double phase = execution_.kind() == Kind::rhythmic ? 0.7 : 1.0;
+    execution_.reinitialise(at, phase, with);
+    ode_.join(motion, phase, with);
+  }
+  template <class Action>
+  void change(const Action& action) {
+    action(execution_);
+    action(ode_);
+  }
+  void move_goal(double by) {
+    const Eigen::VectorXd goal = execution_.goal().array() + by;
+    change([&](auto& either) { either.set_goal(goal); });
+  }
+  void change_tau(double factor) {
+    const double tau = factor * execution_.tau();
+    change([&](auto& either) { either.set_tau(tau); });
+  }
+  void change_amplitude(double amplitude) {
+    if (execution_.kind() == Kind::rhythmic)
+      change([&](auto& either) { either.set_amplitude(amplitude); });
+  }
+  void play(double seconds) {
+    for (long i = std::lround(seconds / dt_); i > 0; --i) {
+      execution_.step(dt_);
+      ode_.advance(dt_, static_cast<int>(std::lround(dt_ / fine_)));
+      const Eigen::VectorXd& y = execution_.sample().position;
+      worst_ = worst_.cwiseMax((y - ode_.motion().col(0).cast<double>()).cwiseAbs());
+      low_ = low_.cwiseMin(y);
+      high_ = high_.cwiseMax(y);
+      if (ode_.added().cwiseAbs().maxCoeff() > 1e-6) added_ = true;
     }
   }
-  return worst / (high - low);
+
+  /// Of the worst coordinate, relative to its own range.
+  double error() const { return worst_.cwiseQuotient(high_ - low_).maxCoeff(); }
+  /// There was forcing that is added to what the weights give.
+  bool added() const { return added_; }
+  const Execution& execution() const { return execution_; }
+  const test::Ode& ode() const { return ode_; }
+
+ private:
+  double dt_, fine_;
+  Execution execution_;
+  test::Ode ode_;
+  Eigen::VectorXd worst_, low_, high_;
+  bool added_ = false;
+};
+
+using Joined = std::tuple<Kind, Kind, JoinSettings>;
+
+std::string name(const testing::TestParamInfo<Joined>& of) {
+  return word(std::get<0>(of.param)) + "To" + word(std::get<1>(of.param)) +
+         word(std::get<2>(of.param));
 }
 
-class ExecutionOf : public testing::TestWithParam<std::tuple<Kind, Join>> {};
+const auto everything =
+    testing::Combine(testing::Values(Kind::discrete, Kind::rhythmic),
+                     testing::Values(Kind::discrete, Kind::rhythmic), testing::ValuesIn(methods));
 
-TEST_P(ExecutionOf, AgreesWithAnIndependentSolution) {
-  const auto [kind, method] = GetParam();
-  std::mt19937_64 random(4);
-  for (int i = 0; i < 3; ++i) {
-    const Primitive primitive =
-        test::random_primitive(random, 2, kind == Kind::rhythmic ? 20 : 10, kind);
-    EXPECT_LT(worst_error(primitive, 1e-3, 1.5, method), 1e-9) << "seed 4, primitive " << i;
-  }
+Primitive any_primitive(std::mt19937_64& random, Kind kind) {
+  return test::random_primitive(random, 3, kind == Kind::rhythmic ? 20 : 10, kind);
 }
 
-TEST_P(ExecutionOf, HasAnErrorOfFourthOrderInTheStep) {
-  const auto [kind, method] = GetParam();
-  std::mt19937_64 random(6);
-  const Primitive primitive = test::random_primitive(random, 1, 10, kind);
-  const double coarse = worst_error(primitive, 8e-3, 0.8, method);
-  const double fine = worst_error(primitive, 4e-3, 0.8, method);
-  EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.4);
+// A start, a join and every change on the way, early and, where a discrete phase has faded, late.
+SideBySide sequence(unsigned seed, const Joined& of, double dt, double fine = ode_step) {
+  const auto& [from, to, with] = of;
+  std::mt19937_64 random(seed);
+  SideBySide both(any_primitive(random, from), dt, fine);
+  const Primitive next = any_primitive(random, to);
+  both.start(with);
+  both.play(0.32);
+  both.move_goal(0.2);
+  both.play(0.16);
+  both.join(next, to == Kind::rhythmic ? 2.0 + seed : 1.0, with);
+  both.play(0.08);
+  both.change_amplitude(1.4);
+  both.play(0.16);
+  both.move_goal(-0.3);
+  both.play(0.16);
+  both.change_tau(0.8);
+  both.play(0.24);
+  both.change_tau(1.5);
+  both.move_goal(0.1);
+  both.play(1.6);
+  both.move_goal(0.2);
+  both.play(0.08);
+  both.change_tau(0.7);
+  both.change_amplitude(0.6);
+  both.play(0.4);
+  return both;
 }
 
-INSTANTIATE_TEST_SUITE_P(, ExecutionOf,
-                         testing::Combine(testing::Values(Kind::discrete, Kind::rhythmic),
-                                          testing::Values(Join::dmp2, Join::dmp2a, Join::dmp3)),
-                         [](const auto& of) {
-                           return std::string(std::get<0>(of.param) == Kind::discrete
-                                                  ? "Discrete"
-                                                  : "Rhythmic") +
-                                  std::string(to_string(std::get<1>(of.param)));
-                         });
+class SequenceOf : public testing::TestWithParam<Joined> {};
+
+TEST_P(SequenceOf, AgreesWithAnIndependentSolution) {
+  for (unsigned seed = 1; seed <= 3; ++seed)
+    EXPECT_LT(sequence(seed, GetParam(), 1e-3).error(), 1e-9) << "seed " << seed;
+}
+
+TEST_P(SequenceOf, HasAnErrorOfFourthOrderInTheStep) {
+  const double coarse = sequence(4, GetParam(), 8e-3).error();
+  const double fine = sequence(4, GetParam(), 4e-3).error();
+  EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.4) << "seed 4";
+}
+
+INSTANTIATE_TEST_SUITE_P(, SequenceOf, everything, name);
 
 TEST(Execution, IsStableForAnyStep) {
   std::mt19937_64 random(7);

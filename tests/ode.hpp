@@ -1,121 +1,223 @@
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <vector>
 
+#include <Eigen/Core>
+
+#include <seam/join.hpp>
 #include <seam/primitive.hpp>
 
 namespace seam::test {
 
-/// One coordinate of Eqs. 1-5, 9-11 solved by the classical Runge-Kutta method in long double with many small steps: an
+/// All coordinates of Eqs. 1-5, 9-11 solved by the classical Runge-Kutta method in long double with many small steps: an
 /// independent solution, which shares no code with the library's. Joins are written out as the paper prints them, with
-/// its misprints put right.
-struct Ode {
+/// its misprints put right; dmp2j, changes on the way and the added forcing as Execution's comment states them.
+class Ode {
+ public:
   using Real = long double;
-  using State = std::array<Real, 4>;  // y, ẏ, r, phase
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  enum Column { y, yd, r, e, ed };  // of the state: e is the added forcing
+  enum { ydd = 2, yddd };           // of a motion, behind y and ẏ
 
   Primitive primitive;
-  std::vector<Real> weights, change;
-  Real tau, goal;
-  Real y, yd, r, p;
-  Real elapsed = 0.0L;  // since the weights were changed
+  Matrix weights, change;  // M × D
+  Vector goal;
+  Real tau, amplitude = 1.0L;
 
-  Ode(const Primitive& from, int d, Real position, Real velocity, Real phase)
+  /// Stands at the primitive's own start.
+  explicit Ode(const Primitive& from)
       : primitive(from),
+        weights(from.weights.cast<Real>()),
+        change(Matrix::Zero(from.weights.rows(), from.weights.cols())),
+        goal(from.goal.cast<Real>()),
         tau(from.tau),
-        goal(from.goal(d)),
-        y(position),
-        yd(velocity),
-        r(from.goal(d)),
-        p(phase) {
-    for (int j = 0; j < from.kernels.count(); ++j) weights.push_back(from.weights(j, d));
-    change.assign(weights.size(), 0.0L);
+        now_{Matrix::Zero(from.dimensions(), 5), rhythmic() ? 0.0L : 1.0L, 0.0L} {
+    now_.x.col(y) = from.start_position.cast<Real>();
+    now_.x.col(yd) = from.start_velocity.cast<Real>();
+    now_.x.col(r) = goal;
   }
 
-  bool rhythmic() const { return primitive.kind == Kind::rhythmic; }
-
-  std::vector<Real> kernels(Real phase) const {
-    std::vector<Real> psi;
-    for (int j = 0; j < primitive.kernels.count(); ++j) {
-      const Real from_center = phase - Real(primitive.kernels.centers(j));
-      const Real sigma = primitive.kernels.widths(j);
-      const Real distance = rhythmic() ? 1.0L - std::cos(from_center) : from_center * from_center;
-      psi.push_back(std::exp(-distance / (2.0L * sigma * sigma)));
-    }
-    return psi;
-  }
-
-  /// The changed weights of a rhythmic primitive return to the learned ones over half a cycle.
-  Real share(Real time) const {
-    const Real s = time / (3.14159265358979323846264338327950288L * tau);
-    if (!rhythmic()) return 1.0L;
-    return s < 1.0L ? 1.0L - s * s * s * (10.0L - 15.0L * s + 6.0L * s * s) : 0.0L;
-  }
-
-  Real forcing(Real phase, Real time) const {
-    const std::vector<Real> psi = kernels(phase);
-    Real sum = 0.0L;
-    Real weighted = 0.0L;
-    for (std::size_t j = 0; j < psi.size(); ++j) {
-      sum += psi[j];
-      weighted += (weights[j] + share(time) * change[j]) * psi[j];
-    }
-    return weighted / sum * (rhythmic() ? 1.0L : phase);
-  }
-
-  Real acceleration() const { return slope({y, yd, r, p}, elapsed)[1]; }
-
-  /// Eq. 6: the filtered goal that gives an acceleration.
-  void join_dmp3(Real ydd) {
+  /// y, ẏ, ÿ and the jerk: D × 4.
+  Matrix motion() const {
     const Gains& g = primitive.gains;
-    r = (tau * tau * ydd + g.D * tau * yd - forcing(p, 0.0L)) / g.K + y;
+    const State rate = slope(now_);
+    Matrix m(now_.x.rows(), 4);
+    m << now_.x.col(y), now_.x.col(yd), rate.x.col(yd), Vector::Zero(now_.x.rows());
+    m.col(yddd) = (Real(g.K) * (rate.x.col(r) - m.col(yd)) - tau * Real(g.D) * m.col(ydd) +
+                   forcing_rate(now_)) /
+                  (tau * tau);
+    return m;
   }
+  Real phase() const { return now_.p; }
+  Vector added() const { return now_.x.col(e); }
 
-  /// Eqs. 19 and 21: the smallest change of the weights that gives an acceleration.
-  void join_dmp2a(Real ydd) {
-    const Gains& g = primitive.gains;
-    const Real needed = tau * tau * ydd + g.D * tau * yd - g.K * (goal - y);
-    const std::vector<Real> psi = kernels(p);
-    Real sum = 0.0L;
-    Real squares = 0.0L;
-    Real weighted = 0.0L;
-    for (std::size_t j = 0; j < psi.size(); ++j) {
-      sum += psi[j];
-      squares += psi[j] * psi[j];
-      weighted += weights[j] * psi[j];
-    }
-    const Real missing = needed * sum / (rhythmic() ? 1.0L : p) - weighted;
-    for (std::size_t j = 0; j < psi.size(); ++j) change[j] = psi[j] / squares * missing;
+  /// Continues a motion (D × 4) at a phase.
+  void join(const Matrix& motion, Real phase, const JoinSettings& with) {
+    join_ = with;
+    tau_joined_ = tau;
+    change.setZero();
+    now_.x.rightCols(2).setZero();
+    now_.p = phase;
+    now_.t = 0.0L;
+    continue_from(motion, true);
+  }
+  void set_goal(const Eigen::VectorXd& to) {
+    const Matrix before = motion();
+    goal = to.cast<Real>();
+    continue_from(before, false);
+  }
+  void set_tau(double to) {
+    const Matrix before = motion();
+    tau = to;
+    continue_from(before, false);
+  }
+  void set_amplitude(double to) {
+    const Matrix before = motion();
+    amplitude = to;
+    continue_from(before, false);
   }
 
   void advance(Real time, int steps) {
     const Real h = time / steps;
     for (int i = 0; i < steps; ++i) {
-      const State s{y, yd, r, p};
-      const State k1 = slope(s, elapsed);
-      const State k2 = slope(plus(s, k1, h / 2), elapsed + h / 2);
-      const State k3 = slope(plus(s, k2, h / 2), elapsed + h / 2);
-      const State k4 = slope(plus(s, k3, h), elapsed + h);
-      State sum{};
-      for (std::size_t n = 0; n < 4; ++n)
-        sum[n] = s[n] + h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
-      y = sum[0], yd = sum[1], r = sum[2], p = sum[3];
-      elapsed += h;
+      const State k1 = slope(now_);
+      const State k2 = slope(now_.plus(k1, h / 2));
+      const State k3 = slope(now_.plus(k2, h / 2));
+      const State k4 = slope(now_.plus(k3, h));
+      now_ = now_.plus(k1, h / 6).plus(k2, h / 3).plus(k3, h / 3).plus(k4, h / 6);
     }
   }
 
+  /// ψ, and its derivative with respect to the phase.
+  Vector kernels(Real phase, int derivative = 0) const {
+    Vector psi(weights.rows());
+    for (Eigen::Index j = 0; j < psi.size(); ++j) {
+      const Real from_center = phase - Real(primitive.kernels.centers(j));
+      const Real twice_square = 2.0L * std::pow(Real(primitive.kernels.widths(j)), 2.0L);
+      const Real distance = rhythmic() ? 1.0L - std::cos(from_center) : from_center * from_center;
+      const Real towards = rhythmic() ? std::sin(from_center) : 2.0L * from_center;
+      psi(j) = std::exp(-distance / twice_square);
+      if (derivative == 1) psi(j) *= -towards / twice_square;
+    }
+    return psi;
+  }
+
  private:
-  State slope(const State& s, Real time) const {
+  struct State {
+    Matrix x;   // D × 5
+    Real p, t;  // phase, time since the join
+    State plus(const State& k, Real h) const { return {x + h * k.x, p + h * k.p, t + h * k.t}; }
+  };
+
+  bool rhythmic() const { return primitive.kind == Kind::rhythmic; }
+  Real phase_rate(Real p) const {
+    return rhythmic() ? 1.0L / tau : -Real(primitive.alpha) * p / tau;
+  }
+
+  /// What each weight is worth at a phase, and its rate by the rule for quotients.
+  Vector worth(Real p) const {
+    const Vector psi = kernels(p);
+    return (amplitude * (rhythmic() ? 1.0L : p) / psi.sum()) * psi;
+  }
+  Vector worth_rate(Real p) const {
+    const Vector psi = kernels(p);
+    const Vector slope = kernels(p, 1);
+    const Real sum = psi.sum();
+    Vector rate = (slope * sum - psi * slope.sum()) / (sum * sum);
+    if (!rhythmic()) rate = p * rate + psi / sum;
+    return amplitude * phase_rate(p) * rate;
+  }
+
+  /// The changed weights of a rhythmic primitive return to the learned ones over half a cycle.
+  Real share(Real t) const {
+    const Real s = t / half_cycle();
+    if (!rhythmic()) return 1.0L;
+    return s < 1.0L ? 1.0L - s * s * s * (10.0L - 15.0L * s + 6.0L * s * s) : 0.0L;
+  }
+  Real share_rate(Real t) const {
+    const Real s = t / half_cycle();
+    if (!rhythmic() || s >= 1.0L) return 0.0L;
+    return -(30.0L * s * s - 60.0L * s * s * s + 30.0L * s * s * s * s) / half_cycle();
+  }
+  Real half_cycle() const { return 3.14159265358979323846264338327950288L * tau_joined_; }
+
+  Vector forcing(const State& s) const {
+    return (weights + share(s.t) * change).transpose() * worth(s.p) + s.x.col(e);
+  }
+  Vector forcing_rate(const State& s) const {
+    return (weights + share(s.t) * change).transpose() * worth_rate(s.p) +
+           share_rate(s.t) * (change.transpose() * worth(s.p)) + s.x.col(ed);
+  }
+
+  State slope(const State& s) const {
     const Gains& g = primitive.gains;
-    const Real v = tau * s[1];
-    const Real vd = (g.K * (s[2] - s[0]) - g.D * v + forcing(s[3], time)) / tau;
-    const Real pd = rhythmic() ? 1.0L / tau : -Real(primitive.alpha) * s[3] / tau;
-    return {s[1], vd / tau, g.H * (goal - s[2]) / tau, pd};
+    const Real decay = Real(g.H) / tau_joined_;
+    State rate{Matrix(s.x.rows(), 5), phase_rate(s.p), 1.0L};
+    rate.x.col(y) = s.x.col(yd);
+    rate.x.col(yd) = (Real(g.K) * (s.x.col(r) - s.x.col(y)) - Real(g.D) * tau * s.x.col(yd) +
+                      forcing(s)) /
+                     (tau * tau);
+    rate.x.col(r) = Real(g.H) / tau * (goal - s.x.col(r));
+    rate.x.col(e) = s.x.col(ed);
+    rate.x.col(ed) = -2.0L * decay * s.x.col(ed) - decay * decay * s.x.col(e);
+    return rate;
   }
-  static State plus(const State& s, const State& k, Real h) {
-    return {s[0] + h * k[0], s[1] + h * k[1], s[2] + h * k[2], s[3] + h * k[3]};
+
+  void continue_from(const Matrix& m, bool joining) {
+    const Gains& g = primitive.gains;
+    const Vector missing = tau * tau * m.col(ydd) + Real(g.D) * tau * m.col(yd) -
+                           Real(g.K) * (goal - m.col(y)) - forcing(now_);
+    const Vector missing_rate = tau * tau * m.col(yddd) + Real(g.D) * tau * m.col(ydd) +
+                                Real(g.K) * m.col(yd) - forcing_rate(now_);
+    now_.x.leftCols(2) = m.leftCols(2);
+    now_.x.col(r) = goal;
+    if (join_.method == Join::dmp3) now_.x.col(r) += missing / Real(g.K);
+    if (join_.method == Join::dmp2 || join_.method == Join::dmp3) return;
+    if (weights_hold() && (joining || !rhythmic())) {
+      change_weights(missing, missing_rate);
+    } else {
+      now_.x.col(e) += missing;
+      if (join_.method == Join::dmp2j) now_.x.col(ed) += missing_rate;
+    }
   }
+
+  bool weights_hold() const {
+    if (!rhythmic() && now_.p < 0.05L) return false;
+    const Vector a = worth(now_.p);
+    if (join_.method == Join::dmp2j) {
+      const Real own_rate = rhythmic() ? 1.0L / tau : Real(primitive.alpha) / tau;
+      return across(a, worth_rate(now_.p)).norm() >= a.norm() * own_rate;
+    }
+    return join_.change != WeightChange::first || a(0) > 0.1L * a.maxCoeff();
+  }
+  static Vector across(const Vector& a, const Vector& b) {
+    return b - a * (a.dot(b) / a.squaredNorm());
+  }
+
+  void change_weights(const Vector& missing, const Vector& missing_rate) {
+    const Vector a = worth(now_.p);
+    if (join_.method == Join::dmp2j) {
+      // Along a for the value, and across it for what then is missing of the rate.
+      const Vector b = worth_rate(now_.p);
+      const Vector n = across(a, b);
+      const Vector rest = missing_rate - missing * (a.dot(b) / a.squaredNorm());
+      change += a / a.squaredNorm() * missing.transpose();
+      change += n / n.squaredNorm() * rest.transpose();
+    } else if (join_.change == WeightChange::smallest) {  // Eq. 21, F·S/s − Σwψ on ψ/|ψ|²
+      const Vector psi = kernels(now_.p);
+      const Real sum = psi.sum() / (rhythmic() ? amplitude : now_.p);
+      change += psi / psi.squaredNorm() * (sum * missing.transpose());
+    } else {  // Eqs. 20 and 22
+      Eigen::Index k = 0;
+      if (join_.change == WeightChange::strongest) a.maxCoeff(&k);
+      change.row(k) += missing.transpose() / a(k);
+    }
+  }
+
+  JoinSettings join_{Join::dmp2};
+  Real tau_joined_ = tau;
+  State now_;
 };
 
 }  // namespace seam::test
