@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/allocation_guard.hpp"
+#include "tests/joins.hpp"
 #include "tests/ode.hpp"
 #include "tests/support.hpp"
 #include <seam/execution.hpp>
@@ -9,22 +10,6 @@ namespace seam {
 namespace {
 
 constexpr double ode_step = 5e-5;
-
-const std::vector<JoinSettings> methods{Join::dmp2,
-                                        Join::dmp2a,
-                                        {Join::dmp2a, WeightChange::first},
-                                        {Join::dmp2a, WeightChange::strongest},
-                                        Join::dmp3,
-                                        Join::dmp2j};
-
-std::string word(Kind kind) {
-  return kind == Kind::discrete ? "Discrete" : "Rhythmic";
-}
-
-std::string word(const JoinSettings& join) {
-  const char* changes[] = {"", "First", "Strongest"};
-  return std::string(to_string(join.method)) + changes[static_cast<int>(join.change)];
-}
 
 // An execution and an independent solution of the same sequence. Each hands over its own state, so that the errors of the
 // whole sequence add up.
@@ -103,13 +88,13 @@ class SideBySide {
 using Joined = std::tuple<Kind, Kind, JoinSettings>;
 
 std::string name(const testing::TestParamInfo<Joined>& of) {
-  return word(std::get<0>(of.param)) + "To" + word(std::get<1>(of.param)) +
-         word(std::get<2>(of.param));
+  return test::word(std::get<0>(of.param)) + "To" + test::word(std::get<1>(of.param)) +
+         test::word(std::get<2>(of.param));
 }
 
 const auto everything =
     testing::Combine(testing::Values(Kind::discrete, Kind::rhythmic),
-                     testing::Values(Kind::discrete, Kind::rhythmic), testing::ValuesIn(methods));
+                     testing::Values(Kind::discrete, Kind::rhythmic), testing::ValuesIn(test::all_methods()));
 
 Primitive any_primitive(std::mt19937_64& random, Kind kind) {
   return test::random_primitive(random, 3, kind == Kind::rhythmic ? 20 : 10, kind);
