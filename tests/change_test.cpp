@@ -118,7 +118,8 @@ TEST(Change, OfTheAmplitudeToNothingAndBackStaysFinite) {
     for (const double amplitude : {0.0, 1e-200, -1.0, 1.0}) {
       ASSERT_TRUE(execution.set_amplitude(amplitude));
       for (int k = 0; k < 300; ++k) execution.step(dt);
-      EXPECT_LT(std::abs(execution.sample().position(0)), 10.0) << test::word(join) << " " << amplitude;
+      EXPECT_LT(std::abs(execution.sample().position(0)), 10.0)
+          << test::word(join) << " " << amplitude;
     }
   }
 }

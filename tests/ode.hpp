@@ -32,7 +32,7 @@ class Ode {
         change(Matrix::Zero(from.weights.rows(), from.weights.cols())),
         goal(from.goal.cast<Real>()),
         tau(from.tau),
-        now_{Matrix::Zero(from.dimensions(), 5), rhythmic() ? 0.0L : 1.0L, 0.0L} {
+        now_{Matrix::Zero(from.dimensions(), 5), rhythmic() ? 0.0L : 1.0L} {
     now_.x.col(y) = from.start_position.cast<Real>();
     now_.x.col(yd) = from.start_velocity.cast<Real>();
     now_.x.col(r) = goal;
@@ -55,11 +55,10 @@ class Ode {
   /// Continues a motion (D × 4) at a phase.
   void join(const Matrix& motion, Real phase, const JoinSettings& with) {
     join_ = with;
-    tau_joined_ = tau;
+    joined_at_ = phase;
     change.setZero();
     now_.x.rightCols(2).setZero();
     now_.p = phase;
-    now_.t = 0.0L;
     continue_from(motion, true);
   }
   void set_goal(const Eigen::VectorXd& to) {
@@ -105,9 +104,9 @@ class Ode {
 
  private:
   struct State {
-    Matrix x;   // D × 5
-    Real p, t;  // phase, time since the join
-    State plus(const State& k, Real h) const { return {x + h * k.x, p + h * k.p, t + h * k.t}; }
+    Matrix x;  // D × 5
+    Real p;    // phase
+    State plus(const State& k, Real h) const { return {x + h * k.x, p + h * k.p}; }
   };
 
   bool rhythmic() const { return primitive.kind == Kind::rhythmic; }
@@ -129,35 +128,35 @@ class Ode {
     return amplitude * phase_rate(p) * rate;
   }
 
-  /// The changed weights of a rhythmic primitive return to the learned ones over half a cycle.
-  Real share(Real t) const {
-    const Real s = t / half_cycle();
+  /// The changed weights of a rhythmic primitive return to the learned ones over half a cycle from a join.
+  Real share(Real p) const {
+    const Real s = (p - joined_at_) / pi;
     if (!rhythmic()) return 1.0L;
     return s < 1.0L ? 1.0L - s * s * s * (10.0L - 15.0L * s + 6.0L * s * s) : 0.0L;
   }
-  Real share_rate(Real t) const {
-    const Real s = t / half_cycle();
+  Real share_rate(Real p) const {
+    const Real s = (p - joined_at_) / pi;
     if (!rhythmic() || s >= 1.0L) return 0.0L;
-    return -(30.0L * s * s - 60.0L * s * s * s + 30.0L * s * s * s * s) / half_cycle();
+    return -(30.0L * s * s - 60.0L * s * s * s + 30.0L * s * s * s * s) / (pi * tau);
   }
-  Real half_cycle() const { return 3.14159265358979323846264338327950288L * tau_joined_; }
+  static constexpr Real pi = 3.14159265358979323846264338327950288L;
 
   Vector forcing(const State& s) const {
-    return (weights + share(s.t) * change).transpose() * worth(s.p) + s.x.col(e);
+    return (weights + share(s.p) * change).transpose() * worth(s.p) + s.x.col(e);
   }
   Vector forcing_rate(const State& s) const {
-    return (weights + share(s.t) * change).transpose() * worth_rate(s.p) +
-           share_rate(s.t) * (change.transpose() * worth(s.p)) + s.x.col(ed);
+    return (weights + share(s.p) * change).transpose() * worth_rate(s.p) +
+           share_rate(s.p) * (change.transpose() * worth(s.p)) + s.x.col(ed);
   }
 
   State slope(const State& s) const {
     const Gains& g = primitive.gains;
-    const Real decay = Real(g.H) / tau_joined_;
-    State rate{Matrix(s.x.rows(), 5), phase_rate(s.p), 1.0L};
+    const Real decay = Real(g.H) / tau;
+    State rate{Matrix(s.x.rows(), 5), phase_rate(s.p)};
     rate.x.col(y) = s.x.col(yd);
-    rate.x.col(yd) = (Real(g.K) * (s.x.col(r) - s.x.col(y)) - Real(g.D) * tau * s.x.col(yd) +
-                      forcing(s)) /
-                     (tau * tau);
+    rate.x.col(yd) =
+        (Real(g.K) * (s.x.col(r) - s.x.col(y)) - Real(g.D) * tau * s.x.col(yd) + forcing(s)) /
+        (tau * tau);
     rate.x.col(r) = Real(g.H) / tau * (goal - s.x.col(r));
     rate.x.col(e) = s.x.col(ed);
     rate.x.col(ed) = -2.0L * decay * s.x.col(ed) - decay * decay * s.x.col(e);
@@ -216,7 +215,7 @@ class Ode {
   }
 
   JoinSettings join_{Join::dmp2};
-  Real tau_joined_ = tau;
+  Real joined_at_ = 0.0L;
   State now_;
 };
 

@@ -12,11 +12,38 @@ TEST(Propagator, MatchesTheClosedFormOfACriticallyDampedSpring) {
     for (const double dt : {1e-4, 1e-2, 0.5, 20.0}) {
       const Propagator step(gains, tau, dt);
       const double w = std::sqrt(200.0) / tau;
-      const Eigen::Vector3d e = step.Phi * Eigen::Vector3d(0.7, -1.3, 0.0);
+      const Eigen::Vector4d e = step.Phi * Eigen::Vector4d(0.7, -1.3, 0.0, 0.0);
       const double decay = std::exp(-w * dt);
       EXPECT_NEAR(e(0), (0.7 + (-1.3 + w * 0.7) * dt) * decay, 1e-13);
       EXPECT_NEAR(e(1), (-1.3 - w * (-1.3 + w * 0.7) * dt) * decay, 2e-12);
     }
+}
+
+// The added forcing on its own: (e₀ + (ė₀ + λe₀)t)·exp(−λt), and e₀·exp(−λt) where ė₀ = −λe₀.
+TEST(Propagator, MatchesTheClosedFormOfTheAddedForcing) {
+  const Gains gains = Gains::paper();
+  for (const double tau : {0.3, 1.0, 4.0})
+    for (const double dt : {1e-4, 1e-2, 0.5}) {
+      const Propagator step(gains, tau, dt);
+      const double h = gains.H / tau;
+      const double decay = std::exp(-h * dt);
+      const Eigen::Vector4d both = step.Phi * Eigen::Vector4d(0.0, 0.0, 0.7, -1.3);
+      EXPECT_NEAR(both(2), (0.7 + (-1.3 + h * 0.7) * dt) * decay, 1e-13);
+      EXPECT_NEAR(both(3), (-1.3 - h * (-1.3 + h * 0.7) * dt) * decay, 1e-11);
+      const Eigen::Vector4d first = step.Phi * Eigen::Vector4d(0.0, 0.0, 0.7, -0.7 * h);
+      EXPECT_NEAR(first(2), 0.7 * decay, 1e-14);
+    }
+}
+
+// The filtered goal of Eq. 5 with triple pole w: (y − g)(t) = w²t²/2·(r₀ − g)·exp(−wt).
+TEST(Propagator, MatchesTheClosedFormOfTheFilteredGoal) {
+  const Gains gains = Gains::critical(200.0);
+  const double w = std::sqrt(200.0) / 0.8;
+  for (const double dt : {1e-3, 0.05, 0.4}) {
+    const Propagator step(gains, 0.8, dt);
+    const Eigen::Vector4d e = step.Phi * Eigen::Vector4d(0.0, 0.0, 200.0 * 0.3, -200.0 * 0.3 * w);
+    EXPECT_NEAR(e(0), 0.5 * w * w * dt * dt * 0.3 * std::exp(-w * dt), 1e-14);
+  }
 }
 
 // Undamped, unforced: e(t) = e₀ cos(ωt) with ω = √K/τ, through up to a hundred turns in a step.
@@ -27,7 +54,7 @@ TEST(Propagator, MatchesTheClosedFormOfAnUndampedSpringOfAnyTimeAndStiffness) {
         const double dt = 2.0 * tau / steps;
         const double w = std::sqrt(K) / tau;
         const Propagator step({K, 0.0, std::sqrt(K)}, tau, dt);
-        const Eigen::Vector3d e = step.Phi * Eigen::Vector3d(0.7, 0.0, 0.0);
+        const Eigen::Vector4d e = step.Phi * Eigen::Vector4d(0.7, 0.0, 0.0, 0.0);
         EXPECT_NEAR(e(0), 0.7 * std::cos(w * dt), 1e-10) << K << ", " << tau << ", " << steps;
         EXPECT_NEAR(e(1), -0.7 * w * std::sin(w * dt), 1e-10 * w) << K << ", " << tau;
       }
@@ -42,7 +69,7 @@ TEST(Propagator, TwoHalfStepsMakeAWhole) {
 TEST(Propagator, AConstantForcingMovesTheEquilibriumByItsShareOfK) {
   const Gains gains = Gains::critical(150.0);
   const Propagator step(gains, 1.0, 100.0);
-  const Eigen::Vector3d e = step.Gamma * Eigen::Vector3d::Ones();
+  const Eigen::Vector2d e = step.Gamma * Eigen::Vector3d::Ones();
   EXPECT_NEAR(e(0), 1.0 / 150.0, 1e-14);
   EXPECT_NEAR(e(1), 0.0, 1e-13);
 }
@@ -55,7 +82,7 @@ TEST(Propagator, IsExactForAQuadraticForcing) {
   const auto f = [&](double t) { return tau * tau + gains.D * tau * t + 0.5 * gains.K * t * t; };
   for (const double dt : {1e-3, 0.05, 1.0}) {
     const Propagator step(gains, tau, dt);
-    const Eigen::Vector3d e = step.Gamma * Eigen::Vector3d(f(0.0), f(0.5 * dt), f(dt));
+    const Eigen::Vector2d e = step.Gamma * Eigen::Vector3d(f(0.0), f(0.5 * dt), f(dt));
     EXPECT_NEAR(e(0), 0.5 * dt * dt, 1e-13);
     EXPECT_NEAR(e(1), dt, 1e-12);
   }

@@ -41,7 +41,8 @@ class BareLoop {
 
   void restart() {
     elapsed_ = 0.0;
-    for (int d = 0; d < D; ++d) offset_[d] = -goal_[d], velocity_[d] = 0.0, lag_[d] = 0.1;
+    for (int d = 0; d < D; ++d)
+      offset_[d] = -goal_[d], velocity_[d] = 0.0, added_[d] = 20.0, rate_[d] = -280.0;
     forcing(1.0, start_);
   }
 
@@ -52,16 +53,20 @@ class BareLoop {
     const auto& P = propagator_.Phi;
     const auto& G = propagator_.Gamma;
     for (int d = 0; d < D; ++d) {
-      const double y = P(0, 0) * offset_[d] + P(0, 1) * velocity_[d] + P(0, 2) * lag_[d] +
-                       G(0, 0) * start_[d] + G(0, 1) * middle_[d] + G(0, 2) * end_[d];
-      const double v = P(1, 0) * offset_[d] + P(1, 1) * velocity_[d] + P(1, 2) * lag_[d] +
-                       G(1, 0) * start_[d] + G(1, 1) * middle_[d] + G(1, 2) * end_[d];
-      lag_[d] *= P(2, 2);
+      const double y = P(0, 0) * offset_[d] + P(0, 1) * velocity_[d] + P(0, 2) * added_[d] +
+                       P(0, 3) * rate_[d] + G(0, 0) * start_[d] + G(0, 1) * middle_[d] +
+                       G(0, 2) * end_[d];
+      const double v = P(1, 0) * offset_[d] + P(1, 1) * velocity_[d] + P(1, 2) * added_[d] +
+                       P(1, 3) * rate_[d] + G(1, 0) * start_[d] + G(1, 1) * middle_[d] +
+                       G(1, 2) * end_[d];
+      const double e = P(2, 2) * added_[d] + P(2, 3) * rate_[d];
+      rate_[d] = P(3, 2) * added_[d] + P(3, 3) * rate_[d];
+      added_[d] = e;
       offset_[d] = y;
       velocity_[d] = v;
       start_[d] = end_[d];
       position[d] = goal_[d] + y;
-      acceleration[d] = (gains_.K * (lag_[d] - y) - gains_.D * tau_ * v + end_[d]) / (tau_ * tau_);
+      acceleration[d] = (end_[d] + e - gains_.K * y - gains_.D * tau_ * v) / (tau_ * tau_);
     }
   }
 
@@ -86,7 +91,8 @@ class BareLoop {
   seam::Gains gains_;
   std::array<double, M> centers_{}, precision_{};
   std::array<std::array<double, D>, M> weights_{};
-  std::array<double, D> goal_{}, offset_{}, velocity_{}, lag_{}, start_{}, middle_{}, end_{};
+  std::array<double, D> goal_{}, offset_{}, velocity_{}, added_{}, rate_{}, start_{}, middle_{},
+      end_{};
   double elapsed_ = 0.0;
 };
 

@@ -11,12 +11,13 @@ namespace {
 constexpr double faded_phase = 0.05;  // x below which weights have lost their hold
 constexpr double least_share =
     0.1;  // of the first kernel against the strongest, to be changed alone
-constexpr double forgotten = 40.0;  // time constants after which an added forcing is nothing
 
 const Primitive& valid(const Primitive& primitive) {
   primitive.validate();
   return primitive;
 }
+
+constexpr int fading_parts = 4;  // of a step, while changed weights bend the forcing most
 
 // What is smaller is nothing: numbers that the processor holds only slowly never come about.
 constexpr double least_magnitude = 1e-200;
@@ -26,38 +27,44 @@ SEAM_INLINE void flush(Lanes& v) {
   v = magnitude > least_magnitude ? v : Lanes{};
 }
 
-// e ← Φe + Γ(f₀, f_m, f₁)ᵀ for every coordinate; matrices by columns.
+// s ← Φs + Γ(f₀, f_m, f₁)ᵀ for every coordinate; matrices by columns.
 SEAM_WIDEST_VECTORS void propagate(const double* P, const double* G, int stride, const double* f0,
                                    const double* fm, const double* f1, double* offset,
-                                   double* velocity, double* lag) noexcept {
+                                   double* velocity, double* added, double* added_rate) noexcept {
   for (int d = 0; d < stride; d += lanes) {
-    const Lanes e = SEAM_CONST_LANES(offset + d);
+    const Lanes y = SEAM_CONST_LANES(offset + d);
     const Lanes v = SEAM_CONST_LANES(velocity + d);
-    const Lanes l = SEAM_CONST_LANES(lag + d);
+    const Lanes e = SEAM_CONST_LANES(added + d);
+    const Lanes ed = SEAM_CONST_LANES(added_rate + d);
     const Lanes start = SEAM_CONST_LANES(f0 + d);
     const Lanes middle = SEAM_CONST_LANES(fm + d);
     const Lanes end = SEAM_CONST_LANES(f1 + d);
-    Lanes next_e = (P[0] * e + P[3] * v) + (P[6] * l + G[0] * start) + (G[3] * middle + G[6] * end);
-    Lanes next_v = (P[1] * e + P[4] * v) + (P[7] * l + G[1] * start) + (G[4] * middle + G[7] * end);
-    Lanes next_l = P[8] * l;
-    flush(next_e);
+    Lanes next_y = (P[0] * y + P[4] * v) + (P[8] * e + P[12] * ed) +
+                   ((G[0] * start + G[2] * middle) + G[4] * end);
+    Lanes next_v = (P[1] * y + P[5] * v) + (P[9] * e + P[13] * ed) +
+                   ((G[1] * start + G[3] * middle) + G[5] * end);
+    Lanes next_e = P[10] * e + P[14] * ed;
+    Lanes next_ed = P[11] * e + P[15] * ed;
+    flush(next_y);
     flush(next_v);
-    flush(next_l);
-    SEAM_LANES(offset + d) = next_e;
+    flush(next_e);
+    flush(next_ed);
+    SEAM_LANES(offset + d) = next_y;
     SEAM_LANES(velocity + d) = next_v;
-    SEAM_LANES(lag + d) = next_l;
+    SEAM_LANES(added + d) = next_e;
+    SEAM_LANES(added_rate + d) = next_ed;
   }
 }
 
 SEAM_WIDEST_VECTORS void observe(double k, double c, double b, int D, const double* __restrict goal,
                                  const double* __restrict offset, const double* __restrict velocity,
-                                 const double* __restrict lag, const double* __restrict forcing,
+                                 const double* __restrict added, const double* __restrict forcing,
                                  double* __restrict y, double* __restrict yd,
                                  double* __restrict ydd) noexcept {
   for (int d = 0; d < D; ++d) {
     y[d] = goal[d] + offset[d];
     yd[d] = velocity[d];
-    ydd[d] = k * (lag[d] - offset[d]) - c * velocity[d] + b * forcing[d];
+    ydd[d] = b * (forcing[d] + added[d]) - k * offset[d] - c * velocity[d];
   }
 }
 
@@ -82,8 +89,8 @@ Execution::Execution(const Primitive& primitive)
   learned_.setZero(padded(M), stride);
   learned_.topLeftCorner(M, D) = primitive.weights;
   change_.setZero(padded(M), stride);
-  for (Eigen::VectorXd* state : {&extra_, &extra_rate_, &goal_, &offset_, &velocity_, &lag_,
-                                 &f_start_, &f_middle_, &f_end_, &faded_middle_, &faded_end_})
+  for (Eigen::VectorXd* state : {&goal_, &offset_, &velocity_, &added_, &added_rate_, &f_start_,
+                                 &f_middle_, &f_end_, &faded_middle_, &faded_end_})
     state->setZero(stride);
   goal_.head(D) = primitive.goal;
   row_.setZero(M);
@@ -96,13 +103,12 @@ Execution::Execution(const Primitive& primitive)
 
 void Execution::reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept {
   join_ = join;
-  fading_ = extended_ = false;
+  fading_ = false;
   weights_ = learned_;
   change_.setZero();
-  extra_.setZero();
-  extra_rate_.setZero();
-  since_join_ = since_extra_ = 0.0;
-  joined_tau_ = tau_;
+  added_.setZero();
+  added_rate_.setZero();
+  joined_phase_ = phase;
   continue_at(at, phase, true);
 }
 
@@ -112,30 +118,28 @@ void Execution::continue_at(const Sample& at, double phase, bool at_join) noexce
   entry_phase_ = phase_ = phase;
   elapsed_ = 0.0;
   evaluate_regressor();
-  rebase_extra();
   const bool by_weights = weights_hold() && (at_join || kind() == Kind::discrete);
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
     const Forcing has = present(d);
     const Forcing needs = needed(at, d);
-    const Forcing missing{needs.value - has.value, needs.rate - has.rate};
+    const Forcing missing{needs.value - has.value - added_(d),
+                          needs.rate - has.rate - added_rate_(d)};
     offset_(d) = at.position(d) - goal_(d);
     velocity_(d) = at.velocity(d);
-    lag_(d) = join_.method == Join::dmp3 ? missing.value / gains_.K : 0.0;
     f_start_(d) = has.value;
-    if (join_.method != Join::dmp2a && join_.method != Join::dmp2j) continue;
-    f_start_(d) = needs.value;
-    if (by_weights)
+    if (join_.method == Join::dmp2) continue;
+    if (join_.method == Join::dmp3) {
+      added_(d) += missing.value;
+      added_rate_(d) = -gains_.H / tau_ * added_(d);
+    } else if (by_weights) {
       change_weights(d, missing);
-    else
-      extend(d, missing);
+      f_start_(d) += missing.value;
+    } else {
+      added_(d) += missing.value;
+      if (join_.method == Join::dmp2j) added_rate_(d) += missing.rate;
+    }
   }
   refresh_sample();
-}
-
-void Execution::extend(Eigen::Index d, Forcing missing) noexcept {
-  extended_ = true;
-  extra_(d) += missing.value;
-  if (join_.method == Join::dmp2j) extra_rate_(d) += missing.rate;
 }
 
 void Execution::change_weights(Eigen::Index d, Forcing missing) noexcept {
@@ -180,39 +184,22 @@ void Execution::evaluate_regressor() noexcept {
   slope_ *= amplitude_ * basis_.phase_rate(phase_, tau_);
 }
 
-// The forcing and its rate as they are: weighted, fading and added.
+// The forcing of the weights and its rate as they are: learned, changed and fading.
 Execution::Forcing Execution::present(Eigen::Index d) const noexcept {
   const auto weights = weights_.col(d).head(basis_.count());
   Forcing f{weights.dot(row_), weights.dot(slope_)};
-  if (fading_) {
-    const auto change = change_.col(d).head(basis_.count());
-    const double share = fade(since_join_ / fade_time());
-    const double slope = fade_slope(since_join_ / fade_time()) / fade_time();
-    f.value += share * change.dot(row_);
-    f.rate += share * change.dot(slope_) + slope * change.dot(row_);
-  }
-  if (extended_) {
-    const double u = since_extra_ / extra_time();
-    f.value += std::exp(-u) * ((1.0 + u) * extra_(d) + since_extra_ * extra_rate_(d));
-    f.rate += std::exp(-u) * ((1.0 - u) * extra_rate_(d) - u / extra_time() * extra_(d));
-  }
+  if (!fading_) return f;
+  const auto change = change_.col(d).head(basis_.count());
+  const double share = fade(faded(phase_));
+  const double slope = fade_slope(faded(phase_)) * basis_.phase_rate(phase_, tau_) / M_PI;
+  f.value += share * change.dot(row_);
+  f.rate += share * change.dot(slope_) + slope * change.dot(row_);
   return f;
 }
 
-// Moves the origin of the added forcing's time to now.
-void Execution::rebase_extra() noexcept {
-  if (!extended_) {
-    extra_.setZero();
-    extra_rate_.setZero();
-  }
-  const double u = since_extra_ / extra_time();
-  const double decay = std::exp(-u);
-  for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const double value = decay * ((1.0 + u) * extra_(d) + since_extra_ * extra_rate_(d));
-    extra_rate_(d) = decay * ((1.0 - u) * extra_rate_(d) - u / extra_time() * extra_(d));
-    extra_(d) = value;
-  }
-  since_extra_ = 0.0;
+// How much of the half cycle has gone by in which a rhythmic primitive's change fades.
+double Execution::faded(double phase) const noexcept {
+  return (phase - joined_phase_) / M_PI;
 }
 
 Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noexcept {
@@ -223,49 +210,33 @@ Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noe
       tau2 * at.jerk(d) + damping * at.acceleration(d) + gains_.K * at.velocity(d)};
 }
 
-double Execution::extra_time() const noexcept {
-  return joined_tau_ / gains_.H;
-}
-
-double Execution::fade_time() const noexcept {
-  return M_PI * joined_tau_;
-}
-
 void Execution::step(double dt) noexcept {
+  const int parts = fading_ ? fading_parts : 1;
+  for (int i = 0; i < parts; ++i) advance(dt / parts);
+  refresh_sample();
+}
+
+void Execution::advance(double dt) noexcept {
   if (dt != dt_) set_step(dt);
   const int stride = static_cast<int>(goal_.size());
   const double middle = kind() == Kind::discrete ? phase_ * half_step_ : phase_ + half_step_;
   elapsed_ += dt;
   phase_ = basis_.advance(entry_phase_, elapsed_, tau_);
   basis_.forcing(middle, phase_, weights_.data(), stride, f_middle_.data(), f_end_.data());
-  if (fading_) add_fading(middle, dt);
+  if (fading_) add_fading(middle);
   if (amplitude_ != 1.0) f_middle_ *= amplitude_, f_end_ *= amplitude_;
-  if (extended_) add_extra(dt);
   propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, f_start_.data(),
-            f_middle_.data(), f_end_.data(), offset_.data(), velocity_.data(), lag_.data());
+            f_middle_.data(), f_end_.data(), offset_.data(), velocity_.data(), added_.data(),
+            added_rate_.data());
   f_start_.swap(f_end_);
-  refresh_sample();
 }
 
-// The change of a rhythmic primitive's weights, in a step whose phases at the middle and the end are given.
-void Execution::add_fading(double middle, double dt) noexcept {
+void Execution::add_fading(double middle) noexcept {
   basis_.forcing(middle, phase_, change_.data(), static_cast<int>(goal_.size()),
                  faded_middle_.data(), faded_end_.data());
-  f_middle_ += fade((since_join_ + 0.5 * dt) / fade_time()) * faded_middle_;
-  since_join_ += dt;
-  f_end_ += fade(since_join_ / fade_time()) * faded_end_;
-  fading_ = since_join_ < fade_time();
-}
-
-void Execution::add_extra(double dt) noexcept {
-  const auto add = [this](double t, Eigen::VectorXd& f) {
-    const double u = t / extra_time();
-    f += std::exp(-u) * (1.0 + u) * extra_ + std::exp(-u) * t * extra_rate_;
-  };
-  add(since_extra_ + 0.5 * dt, f_middle_);
-  since_extra_ += dt;
-  add(since_extra_, f_end_);
-  extended_ = since_extra_ < forgotten * extra_time();
+  f_middle_ += fade(faded(middle)) * faded_middle_;
+  f_end_ += fade(faded(phase_)) * faded_end_;
+  fading_ = faded(phase_) < 1.0;
 }
 
 void Execution::set_step(double dt) noexcept {
@@ -276,16 +247,15 @@ void Execution::set_step(double dt) noexcept {
 
 void Execution::refresh_sample() noexcept {
   observe(gains_.K / (tau_ * tau_), gains_.D / tau_, 1.0 / (tau_ * tau_), dimensions(),
-          goal_.data(), offset_.data(), velocity_.data(), lag_.data(), f_start_.data(),
+          goal_.data(), offset_.data(), velocity_.data(), added_.data(), f_start_.data(),
           sample_.position.data(), sample_.velocity.data(), sample_.acceleration.data());
 }
 
 const Sample& Execution::state() noexcept {
   evaluate_regressor();
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const double lag_rate = -gains_.H / tau_ * lag_(d);
-    sample_.jerk(d) = (gains_.K * (lag_rate - velocity_(d)) -
-                       tau_ * gains_.D * sample_.acceleration(d) + present(d).rate) /
+    sample_.jerk(d) = (present(d).rate + added_rate_(d) - gains_.K * velocity_(d) -
+                       tau_ * gains_.D * sample_.acceleration(d)) /
                       (tau_ * tau_);
   }
   return sample_;

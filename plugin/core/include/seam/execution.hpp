@@ -32,7 +32,8 @@ namespace seam {
 /// Weights have lost their hold where a discrete phase has faded to x < 0.05, where |a| vanishes, for dmp2j where
 /// the part of ȧ across a is shorter than |a|·|ẋ/x| (rhythmic: |a|·|φ̇|), and where the first kernel, changed
 /// alone, is weaker than a tenth of the strongest. dmp2a and dmp2j then add what is missing to the forcing, and it
-/// dies out critically damped with the time constant τ/H, (e₀ + (ė₀ + e₀H/τ)t)·exp(−Ht/τ); dmp2a with ė₀ = 0.
+/// dies out critically damped with the time constant τ/H, ë = −2(H/τ)ė − (H/τ)²e; dmp2a with ė₀ = 0. The filtered goal
+/// of dmp3 is the same with ė₀ = −(H/τ)e₀ and r = g + e/K.
 class Execution {
  public:
   /// Stands at the primitive's own start (the demonstration's first position and velocity, r = g).
@@ -79,17 +80,14 @@ class Execution {
 
   void continue_at(const Sample& at, double phase, bool at_join) noexcept;
   void change_weights(Eigen::Index d, Forcing missing) noexcept;
-  void extend(Eigen::Index d, Forcing missing) noexcept;
   bool weights_hold() const noexcept;
   void evaluate_regressor() noexcept;
-  void rebase_extra() noexcept;
-  double extra_time() const noexcept;  // [s] time constant of what is added
-  double fade_time() const noexcept;   // [s] half a cycle
+  double faded(double phase) const noexcept;
   Forcing present(Eigen::Index d) const noexcept;
   Forcing needed(const Sample& at, Eigen::Index d) const noexcept;
+  void advance(double dt) noexcept;
   void set_step(double dt) noexcept;
-  void add_fading(double middle, double dt) noexcept;
-  void add_extra(double dt) noexcept;
+  void add_fading(double middle) noexcept;
   void refresh_sample() noexcept;
   double valley(const Sample& at, double low, double high) noexcept;
 
@@ -99,26 +97,24 @@ class Execution {
   Basis basis_;
   JoinSettings join_;
   // Coordinates lie behind one another; they and the kernels are filled up with zeros to a multiple of four.
-  Rows learned_;                        // M × D
-  Rows weights_;                        // M × D, with Δw of a discrete primitive
-  Rows change_;                         // M × D, Δw of a rhythmic primitive
-  Eigen::VectorXd extra_, extra_rate_;  // D, forcing added where weights have lost their hold
+  Rows learned_;  // M × D
+  Rows weights_;  // M × D, with Δw of a discrete primitive
+  Rows change_;   // M × D, Δw of a rhythmic primitive
   Eigen::VectorXd goal_;
-  Eigen::VectorXd offset_, velocity_, lag_;  // y − g, ẏ, r − g
+  Eigen::VectorXd offset_, velocity_;  // y − g, ẏ
+  Eigen::VectorXd added_,
+      added_rate_;  // e, ė: forcing that is added and dies out; K(r − g) of dmp3
   Eigen::VectorXd f_start_, f_middle_, f_end_;
   Eigen::VectorXd faded_middle_, faded_end_;  // what change_ would add in full
   Eigen::VectorXd row_, slope_;               // M, a(p) and ȧ
   bool fading_ = false;                       // change_ is not zero
-  bool extended_ = false;                     // extra_ is not zero
   Propagator propagator_;
   double dt_ = std::numeric_limits<double>::quiet_NaN();
   double half_step_ = 0.0;  // what half of dt does to the phase: a factor of x, an addend to φ
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
-  double since_join_ = 0.0;   // [s] the age of change_
-  double since_extra_ = 0.0;  // [s] the age of extra_
-  double joined_tau_ = 1.0;   // [s] tau when the execution was re-initialised
-  CompensatedSum elapsed_;    // [s] since the last re-initialisation
+  double joined_phase_ = 1.0;
+  CompensatedSum elapsed_;  // [s] since the last re-initialisation
   Sample sample_;
 };
 

@@ -6,14 +6,16 @@
 
 namespace seam {
 
-/// One step of length dt of the linear part of Eq. 5, exact for a forcing that is a quadratic over
-/// the step. With e = (y − g, ẏ, r − g) and forcing f₀, f_m, f₁ at the start, middle and end:
-///     e(dt) = Φ·e(0) + Γ·(f₀, f_m, f₁)ᵀ
+/// One step of length dt of the linear system
+///     τ²ÿ = K(g − y) − Dτẏ + f + e,   ë = −2λė − λ²e,   λ = H/τ
+/// exact for a forcing f that is a quadratic over the step. e dies out critically damped; with ė = −λe it is
+/// e₀·exp(−λt), the K(r − g) of Eq. 5. With s = (y − g, ẏ, e, ė) and f₀, f_m, f₁ at the start, middle and end:
+///     s(dt) = Φ·s(0) + Γ·(f₀, f_m, f₁)ᵀ
 /// Φ and Γ come from one matrix exponential (Van Loan), so no dt is unstable and the error of a
 /// whole motion is of order dt⁴, from the quadratic alone.
 struct Propagator {
-  Eigen::Matrix3d Phi = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
+  Eigen::Matrix4d Phi = Eigen::Matrix4d::Identity();
+  Eigen::Matrix<double, 2, 3> Gamma = Eigen::Matrix<double, 2, 3>::Zero();  // of y − g and ẏ
 
   Propagator() = default;
   Propagator(const Gains& gains, double tau, double dt) noexcept;
