@@ -438,6 +438,17 @@ TEST(LongRun, KeepsItsMemoryAndGoesOnCounting) {
   EXPECT_EQ(sequencer.running(), items + 1);
 }
 
+// The motion that settles takes longer than tau, and stays within a primitive's bounds.
+TEST(LongRun, PlaysTheSlowestRhythm) {
+  Primitive slowest = primitive(Kind::rhythmic);
+  slowest.tau = tau_bounds.largest;
+  Sequencer sequencer = started(Sequence().then(slowest).until(on_call()), Join::dmp2a);
+  play(sequencer, 0.1);
+  EXPECT_TRUE(sequencer.hand_over());
+  EXPECT_TRUE(sequencer.finished());
+  EXPECT_TRUE(sequencer.sample().position.allFinite());
+}
+
 // Dropping and replacing what is to come leaves what has been played to be told.
 TEST(LongRun, ReplacesForEver) {
   Sequence two;
