@@ -98,7 +98,7 @@ class BareLoop {
 
 constexpr int ticks = 1000;
 
-void sequencer_step(benchmark::State& state) {
+void play(benchmark::State& state, bool rate_moves) {
   const seam::Primitive shown = primitive();
   seam::Sequence sequence;
   sequence.then(shown).until(seam::after(1e9));
@@ -107,6 +107,7 @@ void sequencer_step(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     sequencer = seam::Sequencer(sequence, seam::Join::dmp3, start);
+    if (rate_moves) sequencer.set_rate(0.5, 10.0);
     state.ResumeTiming();
     for (int k = 0; k < ticks; ++k) {
       sequencer.step(dt);
@@ -115,6 +116,15 @@ void sequencer_step(benchmark::State& state) {
     }
   }
   state.SetItemsProcessed(state.iterations() * ticks);
+}
+
+void sequencer_step(benchmark::State& state) {
+  play(state, false);
+}
+
+/// Each step is of another length and needs a propagator of its own.
+void sequencer_step_while_the_rate_moves(benchmark::State& state) {
+  play(state, true);
 }
 
 void bare_loop(benchmark::State& state) {
@@ -133,4 +143,5 @@ void bare_loop(benchmark::State& state) {
 }  // namespace
 
 BENCHMARK(sequencer_step)->Repetitions(15)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sequencer_step_while_the_rate_moves)->Repetitions(15)->Unit(benchmark::kMicrosecond);
 BENCHMARK(bare_loop)->Repetitions(15)->Unit(benchmark::kMicrosecond);

@@ -45,14 +45,16 @@ std::string range_of(const Bounds& bounds) {
 }
 
 void require_within(double value, const Bounds& bounds, const std::string& name) {
-  require(bounds.hold(value), name + " " + shown(value) + ", must be in " + range_of(bounds));
+  if (!bounds.hold(value))
+    throw Error("primitive", name + " " + shown(value) + ", must be in " + range_of(bounds));
 }
 
 void require_entries(const Eigen::Ref<const Eigen::MatrixXd>& values, const Bounds& bounds,
                      const std::string& name) {
   for (const double value : values.reshaped())
-    require(bounds.hold(value),
-            name + ": an entry is " + shown(value) + ", must be in " + range_of(bounds));
+    if (!bounds.hold(value))
+      throw Error("primitive",
+                  name + ": an entry is " + shown(value) + ", must be in " + range_of(bounds));
 }
 
 void require_vector(const Eigen::VectorXd& value, Eigen::Index size, const Bounds& bounds,

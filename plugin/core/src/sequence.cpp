@@ -43,7 +43,7 @@ double phase_of(const Entry& entry, const Basis& basis) noexcept {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double due(const Switch& until, const Basis& basis, const Whereabouts& now) noexcept {
+double due(const Switch& until, const Basis& basis, const Reached& now) noexcept {
   constexpr double never = std::numeric_limits<double>::infinity();
   switch (until.when) {
     case Switch::When::after:

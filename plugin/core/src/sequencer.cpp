@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,7 +22,7 @@ std::optional<Execution> rest_of(const Primitive& primitive) {
   rest.kind = Kind::discrete;
   rest.kernels = Kernels::even_in_time(10, 0.75, rest.alpha);
   rest.weights.setZero(rest.kernels.count(), rest.dimensions());
-  rest.tau = M_PI * primitive.tau;
+  rest.tau = std::min(M_PI * primitive.tau, tau_bounds.largest);
   return Execution(rest);
 }
 

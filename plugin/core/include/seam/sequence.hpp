@@ -110,7 +110,7 @@ class Sequence {
 double phase_of(const Entry& entry, const Basis& basis) noexcept;
 
 /// How far a primitive has come.
-struct Whereabouts {
+struct Reached {
   double tau = 1.0;     // [s] what it is now
   double time = 0.0;    // [s] since it began
   double phase = 0.0;   // x or φ
@@ -119,6 +119,6 @@ struct Whereabouts {
 
 /// Time [s] from a primitive's beginning until its switch is due, if it goes on from where it is with its present tau;
 /// infinite where that depends on the motion.
-double due(const Switch& until, const Basis& basis, const Whereabouts& now) noexcept;
+double due(const Switch& until, const Basis& basis, const Reached& now) noexcept;
 
 }  // namespace seam
