@@ -21,7 +21,7 @@ format: build/tools                    ## check the layout of the C++ sources (F
 	@clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources)
 tidy: build/tools build/release/build.ninja ## check the C++ sources with clang-tidy
 	run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$'
-micro: build/release/build.ninja       ## measure what a step costs, beside a bare loop of the same arithmetic
+micro: build/release/build.ninja       ## measure learning, and a step beside a bare loop of the same arithmetic
 	cmake --build --preset release --target seam_micro
 	build/release/bench/seam_micro --benchmark_report_aggregates_only
 meshes:                                ## make the arm's meshes anew (needs Node.js)
