@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <seam/kinematics.hpp>
+
+namespace seam {
+
+/// Where a tool should be and how it should move, in the frame of the robot's base: (v, ω) and (v̇, ω̇).
+struct ToolState {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Vector6d velocity = Vector6d::Zero();      // [m/s, rad/s]
+  Vector6d acceleration = Vector6d::Zero();  // [m/s², rad/s²]
+};
+
+/// What the joints should do, and how well the tool follows by it.
+struct JointSolution {
+  Eigen::VectorXd position, velocity, acceleration;  // n [rad or m]
+  double position_error = 0.0;                       // [m] of the tool
+  double angle_error = 0.0;                          // [rad] likewise
+};
+
+struct PostureSettings {
+  Eigen::VectorXd
+      rest;  // n, where the joints would like to be; empty: the middle of their limits, 0 without
+  Eigen::VectorXd weight;  // n, > 0, how much; empty: 1 each
+};
+
+/// Inverse kinematics of a redundant arm that does not depend on the path: of all joint positions that put the tool where
+/// it should be, those nearest to a posture,
+///     minimise ½(q − q_r)ᵀW(q − q_r)  subject to  e(q) = (p − p*, log R·R*ᵀ) = 0
+/// A closed path of the tool is a closed path of the joints. The conditions for it, with multipliers μ (a wrench),
+///     W(q − q_r) + J(q)ᵀμ = 0,  e(q) = 0
+/// are solved by Newton's method from the solution before, with the exact d(Jᵀμ)/dq; they stay regular where J has full
+/// rank, and serve arms without redundancy too. Velocity and acceleration come from differentiating both conditions, and
+/// so are exact and as continuous as the tool's.
+///
+/// Construction allocates; `follow` does not, and does not throw.
+class InverseKinematics {
+ public:
+  enum class Status {
+    exact,         ///< the tool is where it should be, to 1e-12
+    beyond_limit,  ///< it would be, with a joint beyond its limits
+    lost,          ///< no solution near the one before: out of reach, or at a singularity
+  };
+
+  /// @throws Error  the settings do not fit the robot, or it has fewer than six joints that move the tool
+  InverseKinematics(const RobotModel& model, Kinematics kinematics,
+                    const PostureSettings& posture = {});
+
+  int dof() const noexcept { return kinematics_.dof(); }
+
+  /// Finds joint positions for a pose without knowing any near: from the posture and from random ones (seeded).
+  /// @return  positions for which `follow` goes on
+  /// @throws Error  out of reach: the distance [m] and angle [rad] by which the best one misses
+  Eigen::VectorXd reach(const Eigen::Isometry3d& pose);
+
+  /// Goes on from joint positions that put the tool near its next pose.
+  void start(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept;
+  /// The joints for the tool's next state. Unless `exact` the solution is left as it was.
+  Status follow(const ToolState& target, JointSolution& solution) noexcept;
+
+ private:
+  static constexpr int most = 32;  // joints
+  using System = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most + 6, most + 6>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most + 6, 1>;
+
+  Vector6d error(const Eigen::Isometry3d& target) const noexcept;
+  bool converge(const Eigen::Isometry3d& target) noexcept;
+  bool within_limits() const noexcept;
+  void assemble() noexcept;
+  void estimate_wrench() noexcept;
+  bool approach(const Eigen::Isometry3d& target);
+  double posture_cost() const noexcept;
+
+  Kinematics kinematics_;
+  Eigen::VectorXd rest_, weight_, lower_, upper_;
+  Eigen::VectorXd q_;
+  Vector6d wrench_ = Vector6d::Zero();
+  Eigen::MatrixXd gradient_;
+  System system_;
+  Eigen::PartialPivLU<System> factors_;
+  Vector right_, step_;
+};
+
+}  // namespace seam

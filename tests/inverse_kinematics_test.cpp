@@ -1,0 +1,151 @@
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "tests/allocation_guard.hpp"
+#include "tests/support.hpp"
+#include <seam/inverse_kinematics.hpp>
+
+namespace seam {
+namespace {
+
+using Status = InverseKinematics::Status;
+
+const std::string pa10 = std::string(SEAM_ASSETS) + "/pa10/pa10.urdf";
+
+struct Arm {
+  RobotModel model = RobotModel::read(pa10);
+  Kinematics kinematics{model, "tool"};
+  PostureSettings posture{(Eigen::VectorXd(7) << 0.0, 0.6, 0.0, 1.2, 0.0, 0.8, 0.0).finished(), {}};
+  InverseKinematics inverse{model, kinematics, posture};
+};
+
+// A closed path in front of the arm: an oval that the tool goes round in 2 s, nodding and turning.
+ToolState on_path(double t) {
+  const double w = M_PI;
+  const auto wave = [&](double size, double times, double phase) {
+    const double a = times * w;
+    return Eigen::Vector3d(size * std::sin(a * t + phase), size * a * std::cos(a * t + phase),
+                           -size * a * a * std::sin(a * t + phase));
+  };
+  const Eigen::Vector3d x = wave(0.06, 1, 1.5), y = wave(0.15, 1, 0.0), z = wave(0.05, 2, 0.3);
+  const Eigen::Vector3d nod = wave(0.3, 1, 0.2);
+  ToolState state;
+  state.pose.translation() = Eigen::Vector3d(0.72 + x(0), y(0), 0.35 + z(0));
+  state.pose.linear() = (Eigen::AngleAxisd(nod(0), Eigen::Vector3d::UnitX()) *
+                         Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()))
+                            .toRotationMatrix();
+  state.velocity << x(1), y(1), z(1), nod(1), 0.0, 0.0;
+  state.acceleration << x(2), y(2), z(2), nod(2), 0.0, 0.0;
+  return state;
+}
+
+JointSolution solution_at(Arm& arm, double t) {
+  JointSolution solution;
+  EXPECT_EQ(arm.inverse.follow(on_path(t), solution), Status::exact) << t;
+  return solution;
+}
+
+TEST(InverseKinematics, FollowsAPathExactly) {
+  Arm arm;
+  arm.inverse.reach(on_path(0.0).pose);
+  double worst = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    const JointSolution solution = solution_at(arm, k * 1e-3);
+    arm.kinematics.move_to(solution.position);
+    const Eigen::Isometry3d& X = arm.kinematics.X_base_tool();
+    worst = std::max(worst, (X.translation() - on_path(k * 1e-3).pose.translation()).norm());
+    worst = std::max(worst, (X.linear() - on_path(k * 1e-3).pose.linear()).norm());
+  }
+  EXPECT_LT(worst, 2e-12);
+}
+
+// A closed path of the tool is one of the joints, and where it begins does not matter.
+TEST(InverseKinematics, DoesNotDependOnThePath) {
+  Arm arm;
+  const Eigen::VectorXd first = arm.inverse.reach(on_path(0.0).pose);
+  JointSolution solution;
+  for (int k = 0; k <= 2000; ++k) solution = solution_at(arm, k * 1e-3);
+  EXPECT_LT((solution.position - first).norm(), 1e-10);
+  for (int k = 0; k < 700; ++k) solution = solution_at(arm, k * 1e-3);
+  Arm other;
+  other.inverse.reach(on_path(0.699).pose);
+  EXPECT_LT((solution_at(other, 0.699).position - solution.position).norm(), 1e-10);
+}
+
+TEST(InverseKinematics, VelocityAndAccelerationAreDerivatives) {
+  constexpr double h = 1e-4;
+  Arm arm;
+  arm.inverse.reach(on_path(0.0).pose);
+  for (int k = 0; k < 40; ++k) {
+    const double t = 0.05 * k;
+    for (double s = std::max(0.0, t - 0.05); s < t; s += 0.01) solution_at(arm, s);
+    const JointSolution before = solution_at(arm, t - h);
+    const JointSolution now = solution_at(arm, t);
+    const JointSolution after = solution_at(arm, t + h);
+    EXPECT_LT((now.velocity - (after.position - before.position) / (2.0 * h)).norm(), 1e-5) << t;
+    EXPECT_LT((now.acceleration - (after.velocity - before.velocity) / (2.0 * h)).norm(), 1e-4)
+        << t;
+  }
+}
+
+// Nothing near the solution on the self-motion is nearer to the posture.
+TEST(InverseKinematics, IsNearestToThePosture) {
+  Arm arm;
+  arm.inverse.reach(on_path(0.0).pose);
+  const JointSolution solution = solution_at(arm, 0.0);
+  arm.kinematics.move_to(solution.position);
+  const Eigen::MatrixXd J = arm.kinematics.jacobian();
+  const Eigen::VectorXd away = solution.position - arm.posture.rest;
+  // What of the way to the posture does not move the tool.
+  const Eigen::VectorXd free = away - J.completeOrthogonalDecomposition().solve(J * away);
+  EXPECT_LT(free.norm(), 1e-10);
+}
+
+TEST(InverseKinematics, SaysHowFarAPoseIsOutOfReach) {
+  Arm arm;
+  Eigen::Isometry3d far = on_path(0.0).pose;
+  far.translation() = Eigen::Vector3d(2.0, 0.0, 0.3);
+  // Upper arm 0.45, forearm 0.5, wrist to tool 0.24: 1.19 m from the shoulder, straight.
+  EXPECT_THAT(test::refusal([&] { arm.inverse.reach(far); }),
+              testing::StartsWith("pose: out of reach by 0.8"));
+}
+
+TEST(InverseKinematics, LosesWhatLeavesItsReachAndKeepsTheLastSolution) {
+  Arm arm;
+  arm.inverse.reach(on_path(0.0).pose);
+  JointSolution solution = solution_at(arm, 0.0);
+  ToolState target = on_path(0.0);
+  Status status = Status::exact;
+  Eigen::VectorXd last;
+  for (int k = 0; k < 1000 && status == Status::exact; ++k) {
+    last = solution.position;
+    target.pose.translation().x() += 1e-3;
+    status = arm.inverse.follow(target, solution);
+  }
+  EXPECT_NE(status, Status::exact);
+  EXPECT_EQ(solution.position, last);
+  EXPECT_GT(target.pose.translation().x(), 0.9);
+}
+
+TEST(InverseKinematics, FollowsWithoutAllocating) {
+  Arm arm;
+  arm.inverse.reach(on_path(0.0).pose);
+  JointSolution solution = solution_at(arm, 0.0);
+  const ToolState next = on_path(1e-3);
+  const AllocationGuard guard;
+  EXPECT_EQ(arm.inverse.follow(next, solution), Status::exact);
+  EXPECT_EQ(guard.allocations(), 0);
+}
+
+TEST(InverseKinematics, RefusesSettingsThatDoNotFit) {
+  Arm arm;
+  const auto with = [&](const Eigen::VectorXd& rest, const Eigen::VectorXd& weight) {
+    return test::refusal([&] { InverseKinematics(arm.model, arm.kinematics, {rest, weight}); });
+  };
+  EXPECT_THAT(with(Eigen::VectorXd::Zero(6), {}), testing::HasSubstr("rest must be 7 finite"));
+  EXPECT_THAT(with({}, Eigen::VectorXd::Zero(7)), testing::HasSubstr("weight must be > 0"));
+}
+
+}  // namespace
+}  // namespace seam
