@@ -2,36 +2,79 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 namespace seam {
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> list{
-      {"torque_jump_nm", "torque jump", "N·m", "{:.3g}",
-       [](const Run& r) { return r.metrics.torque_jump_nm; }},
-      {"torque_jump_percent", "of limit", "%", "{:.2g}",
-       [](const Run& r) { return r.metrics.torque_jump_percent; }},
-      {"torque_jump_order", "order", "in dt", "{:.2f}",
+namespace {
+
+using Metric = double RunMetrics::*;
+
+Column metric(const char* name, const char* heading, const char* format, Metric of) {
+  return {name, heading, format, [of](const Run& run) { return run.metrics.*of; }};
+}
+
+double outcome(const Run& run, const std::string& name) {
+  for (const Outcome& outcome : run.recording.outcomes)
+    if (outcome.name == name) return outcome.value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// "spilled_share" as "spilled", "wave_peak_m" as "wave peak [m]".
+std::string heading_of(std::string name) {
+  std::string unit;
+  for (const char* ending : {"_share", "_m"}) {
+    const std::size_t length = std::string(ending).size();
+    if (name.size() <= length || name.substr(name.size() - length) != ending) continue;
+    name.resize(name.size() - length);
+    if (ending[1] == 'm') unit = " [m]";
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + unit;
+}
+
+}  // namespace
+
+std::vector<Column> columns(const Comparison& comparison) {
+  const Recording& recording = comparison.runs.front().recording;
+  const bool tool = recording.in_task_space();
+  using M = RunMetrics;
+  std::vector<Column> list{
+      metric("torque_jump_nm", "torque jump [N·m]", "{:.3g}", &M::torque_jump_nm),
+      metric("torque_jump_percent", "of limit [%]", "{:.2g}", &M::torque_jump_percent),
+      {"torque_jump_order", "order [in dt]", "{:.2f}",
        [](const Run& r) { return r.torque_jump_order; }},
-      {"acceleration_jump_rad_s2", "accel. jump", "rad/s²", "{:.2g}",
-       [](const Run& r) { return r.metrics.acceleration_jump_rad_s2; }},
-      {"torque_rate_peak_nm_s", "peak torque rate", "N·m/s", "{:.0f}",
-       [](const Run& r) { return r.metrics.torque_rate_peak_nm_s; }},
-      {"torque_rate_rms_nm_s", "RMS", "N·m/s", "{:.0f}",
-       [](const Run& r) { return r.metrics.torque_rate_rms_nm_s; }},
-      {"jerk_peak_rad_s3", "peak jerk", "rad/s³", "{:.0f}",
-       [](const Run& r) { return r.metrics.jerk_peak_rad_s3; }},
-      {"jerk_rms_rad_s3", "RMS", "rad/s³", "{:.0f}",
-       [](const Run& r) { return r.metrics.jerk_rms_rad_s3; }},
-      {"tracking_rms_rad", "tracking RMS", "rad", "{:.1e}",
-       [](const Run& r) { return r.metrics.tracking_rms_rad; }},
-      {"tracking_max_rad", "max", "rad", "{:.1e}",
-       [](const Run& r) { return r.metrics.tracking_max_rad; }},
-      {"deviation_peak_rad", "deviation", "rad", "{:.3f}",
-       [](const Run& r) { return r.deviation_peak_rad; }},
   };
+  if (tool)
+    list.push_back(metric("acceleration_jump_m_s2", "accel. jump [m/s²]", "{:.2g}",
+                          &M::acceleration_jump_m_s2));
+  if (!tool || comparison.scene.sequence.coordinates().size() > 3)
+    list.push_back(metric("acceleration_jump_rad_s2", "accel. jump [rad/s²]", "{:.2g}",
+                          &M::acceleration_jump_rad_s2));
+  for (const Column& column :
+       {metric("torque_rate_peak_nm_s", "peak torque rate [N·m/s]", "{:.0f}",
+               &M::torque_rate_peak_nm_s),
+        metric("torque_rate_rms_nm_s", "RMS [N·m/s]", "{:.0f}", &M::torque_rate_rms_nm_s),
+        metric("jerk_peak_rad_s3", "peak jerk [rad/s³]", "{:.0f}", &M::jerk_peak_rad_s3),
+        metric("jerk_rms_rad_s3", "RMS [rad/s³]", "{:.0f}", &M::jerk_rms_rad_s3),
+        metric("tracking_rms_rad", "tracking RMS [rad]", "{:.1e}", &M::tracking_rms_rad),
+        metric("tracking_max_rad", "max [rad]", "{:.1e}", &M::tracking_max_rad)})
+    list.push_back(column);
+  if (tool) {
+    list.push_back(
+        metric("tool_tracking_max_m", "tool, max [m]", "{:.1e}", &M::tool_tracking_max_m));
+    list.push_back(
+        metric("tool_tracking_max_rad", "max [rad]", "{:.1e}", &M::tool_tracking_max_rad));
+    list.push_back({"deviation_peak_m", "deviation [m]", "{:.3f}",
+                    [](const Run& r) { return r.deviation_peak_m; }});
+  }
+  list.push_back({"deviation_peak_rad", tool ? "[rad]" : "deviation [rad]", "{:.3f}",
+                  [](const Run& r) { return r.deviation_peak_rad; }});
+  for (const Outcome& scene : recording.outcomes)
+    list.push_back({scene.name, heading_of(scene.name), "{:.3g}",
+                    [name = scene.name](const Run& run) { return outcome(run, name); }});
   return list;
 }
 
@@ -52,11 +95,11 @@ std::string cell(const Column& column, const Run& run) {
 
 std::vector<std::vector<std::string>> cells(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows(1, {"method"});
-  for (const Column& column : columns())
-    rows[0].push_back(fmt::format("{} [{}]", column.heading, column.unit));
+  const std::vector<Column> shown = columns(comparison);
+  for (const Column& column : shown) rows[0].push_back(column.heading);
   for (const Run& run : comparison.runs) {
     std::vector<std::string> row{std::string(to_string(run.method))};
-    for (const Column& column : columns()) row.push_back(cell(column, run));
+    for (const Column& column : shown) row.push_back(cell(column, run));
     rows.push_back(std::move(row));
   }
   return rows;

@@ -68,6 +68,8 @@ Run measured(const Play& full, const Play& half, const Play& dmp2) {
     if (jump == run.metrics.torque_jump_nm) run.torque_jump_order = run.join_orders.back();
   }
   run.deviation_peak_rad = deviation_peak(full.recording, dmp2.recording);
+  if (full.recording.in_task_space())
+    run.deviation_peak_m = tool_deviation_peak(full.recording, dmp2.recording);
   run.real_time_factor = full.dt * full.recording.ticks() / full.wall;
   return run;
 }

@@ -20,6 +20,7 @@ struct Run {
   std::vector<double> join_orders;  // of the torque jump at each join
   double torque_jump_order = std::numeric_limits<double>::quiet_NaN();  // of the worst join
   double deviation_peak_rad = 0.0;  // [rad] of the reference from dmp2's
+  double deviation_peak_m = 0.0;    // [m] of the tool's, in task space
   double real_time_factor = 0.0;    // simulated time over wall time; not the same twice
 };
 

@@ -95,6 +95,25 @@ std::string preamble(const Comparison& comparison, int width, int height) {
   return text;
 }
 
+const char* unit(const Scene& scene) {
+  const std::string& name = scene.figure;
+  return scene.tool && (name == "x" || name == "y" || name == "z") ? "m" : "rad";
+}
+
+// In task space that whose torque the joins disturb most.
+std::string torque_joint(const Comparison& comparison) {
+  const Recording& recording = comparison.runs.front().recording;
+  if (!recording.in_task_space()) return comparison.scene.figure;
+  Eigen::VectorXd worst = Eigen::VectorXd::Zero(recording.effort.size());
+  for (const RecordedJoin& join : recording.joins) {
+    const Eigen::VectorXd step = jump(recording.time, recording.torque, join.time).cwiseAbs();
+    if (step.allFinite()) worst = worst.cwiseMax(step);
+  }
+  Eigen::Index joint = 0;
+  worst.maxCoeff(&joint);
+  return recording.joints[static_cast<std::size_t>(joint)];
+}
+
 std::string sequencing_script(const Comparison& comparison) {
   const Scene& scene = comparison.scene;
   const Recording& recording = comparison.runs.front().recording;
@@ -102,15 +121,17 @@ std::string sequencing_script(const Comparison& comparison) {
   std::string text = preamble(comparison, 1200, 1440);
   text += fmt::format("set xrange [0:{}]\n", recording.time(recording.ticks() - 1));
   text +=
-      "set multiplot layout 4,1 title " + quoted(scene.title + ", joint " + scene.figure) + "\n";
-  text += "set ylabel 'each alone [rad]'\nplot ";
+      "set multiplot layout 4,1 title " + quoted(scene.title + ", " + scene.figure) + "\n";
+  const std::string u = unit(scene);
+  text += "set ylabel 'each alone [" + u + "]'\nplot ";
   for (std::size_t i = 0; i < scene.primitive_names.size(); ++i)
     text += fmt::format("{}'{}' using 'time':{} with lines lw 2.5 lc rgb '{}' title {}",
                         i ? ", \\\n  " : "", file_of(i), quoted(scene.figure),
                         i % 2 ? "#999999" : "#333333", quoted(scene.primitive_names[i]));
-  const std::pair<const char*, const char*> panels[] = {{"joined position [rad]", "ref."},
-                                                        {"velocity [rad/s]", "ref_vel."},
-                                                        {"acceleration [rad/s²]", "ref_acc."}};
+  const std::pair<std::string, std::string> panels[] = {
+      {"joined position [" + u + "]", "ref."},
+      {"velocity [" + u + "/s]", "ref_vel."},
+      {"acceleration [" + u + "/s²]", "ref_acc."}};
   for (const auto& [label, prefix] : panels) {
     if (prefix == panels[2].second) text += "\nset xlabel 'time [s]'";
     text += fmt::format("\nset ylabel '{}'\nplot {}\n{}", label,
@@ -121,15 +142,15 @@ std::string sequencing_script(const Comparison& comparison) {
 }
 
 std::string torque_script(const Comparison& comparison) {
-  const Scene& scene = comparison.scene;
+  const std::string joint = torque_joint(comparison);
   const Recording& recording = comparison.runs.front().recording;
   const int every = std::max(1, recording.ticks() / curve_points);
   const double join = recording.joins.back().time;
   const double reach = 20e3 * comparison.dt;  // [ms]
-  const std::string column = "torque." + scene.figure;
+  const std::string column = "torque." + joint;
   std::string text = preamble(comparison, 1200, 520);
   text += "set multiplot layout 1,2\nset xlabel 'time [s]'\nunset key\nset tmargin 3\n";
-  text += "set ylabel " + quoted("torque of " + scene.figure + " [N·m]") + "\n";
+  text += "set ylabel " + quoted("torque of " + joint + " [N·m]") + "\n";
   text += fmt::format("set xrange [0:{}]\nplot {}\n", recording.time(recording.ticks() - 1),
                       curves(comparison, "'time'", column, every, "lines"));
   text += "set key at screen 0.98, screen 0.97 right horizontal maxrows 1 samplen 2\n";

@@ -25,6 +25,8 @@ Json joins_of(const Run& run) {
                        {"torque_jump_percent", join.torque_jump_percent},
                        {"torque_jump_order", run.join_orders[i]},
                        {"acceleration_jump_rad_s2", join.acceleration_jump_rad_s2}}}});
+    if (run.recording.in_task_space())
+      joins.back()["metrics"]["acceleration_jump_m_s2"] = join.acceleration_jump_m_s2;
   }
   return joins;
 }
@@ -34,7 +36,7 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
   for (const Comparison& comparison : comparisons)
     for (const Run& run : comparison.runs) {
       Json metrics;
-      for (const Column& column : columns()) metrics[column.name] = column.of(run);
+      for (const Column& column : columns(comparison)) metrics[column.name] = column.of(run);
       runs.push_back({{"scene", comparison.scene.name},
                       {"method", to_string(run.method)},
                       {"dt", comparison.dt},
@@ -64,7 +66,8 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
     make_folder(folder);
     for (const Run& run : comparison.runs)
       run.recording.write((folder / (std::string(to_string(run.method)) + ".csv")).string());
-    tables += (tables.empty() ? "" : "\n") + table(comparison);
+    tables += (tables.empty() ? "" : "\n") + comparison.scene.title + " (`" +
+              comparison.scene.name + "`):\n\n" + table(comparison);
   }
   write_whole((results / "table.md").string(), tables);
   write_whole((results / "summary.json").string(),

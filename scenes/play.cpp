@@ -21,7 +21,9 @@ Recording room_for(const Scene& scene, int ticks) {
     effort(static_cast<Eigen::Index>(names.size())) = joint.effort;
     names.push_back(joint.name);
   }
-  return {std::move(names), std::move(effort), ticks};
+  std::vector<std::string> tool;
+  if (scene.tool) tool = scene.sequence.coordinates();
+  return {std::move(names), std::move(effort), ticks, std::move(tool)};
 }
 
 void record(const Controller::Tick& tick, double time, Eigen::Index row, Recording& recording) {
@@ -33,10 +35,21 @@ void record(const Controller::Tick& tick, double time, Eigen::Index row, Recordi
   recording.q.row(row) = tick.q;
   recording.qd.row(row) = tick.qd;
   recording.torque.row(row) = tick.torque;
+  if (!recording.in_task_space()) return;
+  recording.tool_ref.row(row) = tick.sequence.position;
+  recording.tool_vel.row(row) = tick.sequence.velocity;
+  recording.tool_acc.row(row) = tick.sequence.acceleration;
+  recording.tool_error_m(row) = tick.tool_error.distance;
+  recording.tool_error_rad(row) = tick.tool_error.angle;
 }
 
-double largest_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  return (after - before).cwiseAbs().maxCoeff();
+// Steps in acceleration of a tool's x y z are linear, of all other coordinates of angles.
+RecordedJoin join_of(const Scene& scene, double time, int primitive, const Eigen::VectorXd& before,
+                     const Eigen::VectorXd& after) {
+  const Eigen::VectorXd step = (after - before).cwiseAbs();
+  const Eigen::Index linear = scene.tool ? 3 : 0;
+  const auto largest = [](const auto& part) { return part.size() > 0 ? part.maxCoeff() : 0.0; };
+  return {time, primitive, largest(step.tail(step.size() - linear)), largest(step.head(linear))};
 }
 
 // A change on the way is recorded as a join of the primitive with itself.
@@ -48,14 +61,14 @@ void happen(const Event& event, const Scene& scene, double time, Sequencer& sequ
                                 " s cannot: nothing runs then, or nothing that it fits");
   if (event.what != Event::What::hand_over)
     joins.push_back(
-        {time, sequencer.running(), largest_step(before, sequencer.sample().acceleration)});
+        join_of(scene, time, sequencer.running(), before, sequencer.sample().acceleration));
 }
 
-void add_joins(const Sequencer& sequencer, std::vector<RecordedJoin>& joins) {
+void add_joins(const Scene& scene, const Sequencer& sequencer, std::vector<RecordedJoin>& joins) {
   for (int i = 0; i < sequencer.joins(); ++i) {
     const JoinEvent& event = sequencer.join(i);
-    joins.push_back({event.time, event.primitive,
-                     largest_step(event.acceleration_before, event.acceleration_after)});
+    joins.push_back(join_of(scene, event.time, event.primitive, event.acceleration_before,
+                            event.acceleration_after));
   }
   std::stable_sort(joins.begin(), joins.end(),
                    [](const RecordedJoin& a, const RecordedJoin& b) { return a.time < b.time; });
@@ -71,7 +84,7 @@ Recording play(const Scene& scene, Join method, double dt) {
   World world;
   Robot robot(scene.robot, *world);
   robot.reset(scene.start, Eigen::VectorXd::Zero(robot.dof()));
-  Controller controller(robot, scene.sequence, method, scene.control);
+  Controller controller(robot, scene.sequence, method, scene.controller());
   Plugin plugin(*world);
   plugin.add(controller);
 
@@ -84,7 +97,9 @@ Recording play(const Scene& scene, Join method, double dt) {
     world->stepSimulation(dt, 0);
     record(controller.last_tick(), k * dt, k, recording);
   }
-  add_joins(controller.sequencer(), recording.joins);
+  if (controller.status() == Controller::Status::stopped)
+    recording.outcomes.push_back({"stopped_out_of_reach", 1.0});
+  add_joins(scene, controller.sequencer(), recording.joins);
   return recording;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "plugin/files/src/sequence_entry.hpp"
 #include <seam/controller.hpp>
@@ -13,15 +14,6 @@ namespace seam {
 namespace {
 
 constexpr double most_seconds = 3600.0;
-
-void read_steps(const YamlEntry& entry, Scene& scene) {
-  if (const auto start = entry.find("start"))
-    start->fail("not known in a scene, which begins at the robot's start");
-  SequenceFile file = read_sequence(
-      entry, [&](const Primitive& primitive) { require_reachable(primitive, scene.robot); });
-  scene.sequence = std::move(file.sequence);
-  scene.primitive_names = std::move(file.primitives);
-}
 
 void read_robot(const YamlEntry& entry, Scene& scene) {
   entry.only({"urdf", "start"});
@@ -38,6 +30,46 @@ void read_robot(const YamlEntry& entry, Scene& scene) {
       position.fail(position.text() + ", must be in " + std::to_string(joint.lower) + " to " +
                     std::to_string(joint.upper));
   }
+}
+
+ToolSettings read_tool(const YamlEntry& entry, const Scene& scene) {
+  entry.only({"link", "offset", "turned", "orientation"});
+  ToolSettings tool;
+  const YamlEntry link = entry.at("link");
+  tool.link = link.text();
+  at_key(link, [&] { return scene.robot.frame(tool.link).body; });
+  if (const auto offset = entry.find("offset"))
+    tool.X_link_tool.translation() = offset->numbers(3, "direction");
+  if (const auto turned = entry.find("turned"))
+    tool.X_link_tool.linear() = turned->orientation().toRotationMatrix();
+  tool.orientation = Eigen::Quaterniond::Identity();
+  if (const auto orientation = entry.find("orientation"))
+    tool.orientation = orientation->orientation();
+  tool.posture.rest = scene.start;
+  return tool;
+}
+
+std::unique_ptr<JointReference> reference(const Scene& scene, const Primitive& primitive) {
+  if (!scene.tool) return std::make_unique<JointSpace>(scene.robot, primitive.coordinates);
+  return std::make_unique<TaskSpace>(scene.robot, Sequence().then(primitive), *scene.tool,
+                                     scene.start);
+}
+
+void read_steps(const YamlEntry& entry, Scene& scene) {
+  if (const auto start = entry.find("start"))
+    start->fail("not known in a scene, which begins at the robot's start");
+  SequenceFile file = read_sequence(entry, [&](const Primitive& primitive) {
+    reference(scene, primitive)->require_reachable(primitive);
+  });
+  scene.sequence = std::move(file.sequence);
+  scene.primitive_names = std::move(file.primitives);
+}
+
+// Where the first primitive's demonstration began.
+void start_with_tool(const YamlEntry& entry, Scene& scene) {
+  const Primitive& first = scene.sequence.steps().front().primitive;
+  TaskSpace space(scene.robot, scene.sequence, *scene.tool, scene.start);
+  at_key(entry, [&] { scene.start = space.reach(space.pose(first.start_position)); });
 }
 
 double read_tick(const YamlEntry& entry, const ControlSettings& control) {
@@ -87,13 +119,16 @@ int Scene::ticks(double step) const {
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "sequence", "events", "control", "dt", "settle",
+  root.only({"format", "title", "robot", "tool", "sequence", "events", "control", "dt", "settle",
              "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
   read_robot(root.at("robot"), scene);
+  const auto tool = root.find("tool");
+  if (tool) scene.tool = read_tool(*tool, scene);
   read_steps(root.at("sequence"), scene);
+  if (tool) start_with_tool(*tool, scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);
   if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt, scene.control);
   if (const auto events = root.find("events"))
@@ -101,7 +136,6 @@ Scene Scene::read(const std::string& path) {
   scene.duration = read_duration(root, scene.sequence);
   const YamlEntry figure = root.at("figure");
   scene.figure = figure.text();
-  at_key(figure, [&] { return scene.robot.joint(scene.figure); });
   const auto& moved = scene.sequence.coordinates();
   if (std::find(moved.begin(), moved.end(), scene.figure) == moved.end())
     figure.fail("\"" + scene.figure + "\", is moved by no primitive");

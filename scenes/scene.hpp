@@ -1,11 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "scenes/event.hpp"
-#include <seam/computed_torque.hpp>
+#include <seam/controller.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
 
@@ -21,15 +22,17 @@ struct Scene {
   std::string title;  // one line
   RobotModel robot;
   Eigen::VectorXd start;  // [rad] joint positions at rest
+  std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
   ControlSettings control;
   double dt = 1e-3;       // [s] Bullet's tick
   double duration = 0.0;  // [s] of a run
   std::vector<Event> events;
-  std::string figure;  // the joint that the figure shows
+  std::string figure;  // the joint, or the tool's coordinate, that the figure shows
 
   int ticks(double step) const;  // of a run
+  ControllerSettings controller() const { return {control, tool, std::nullopt}; }
 
   /// Reads a scene file (the format is explained in scenes/README.md).
   /// @throws Error  names file, line and key

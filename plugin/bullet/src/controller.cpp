@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -10,24 +11,54 @@ namespace seam {
 
 namespace {
 
-std::vector<Eigen::Index> joints_of(const Sequence& sequence, const RobotModel& model) {
-  std::vector<Eigen::Index> joints;
-  for (const std::string& coordinate : sequence.coordinates())
-    joints.push_back(model.joint(coordinate));
+constexpr double brake_tau = 0.5;  // [s]
+// Three time constants of the triple pole, so that no joint turns back [s].
+const double stopping_time = 3.0 * brake_tau / Gains().H;
+
+const RobotModel& known(const Robot& robot, const ControllerSettings& settings) {
+  const RobotModel& all = robot.model();
+  if (!settings.model) return all;
+  const auto& joints = settings.model->joints;
+  const auto same = [](const Joint& a, const Joint& b) { return a.name == b.name; };
+  if (joints.size() > all.joints.size() ||
+      !std::equal(joints.begin(), joints.end(), all.joints.begin(), same))
+    throw Error("controller", "the joints of its model are not the robot's first ones");
+  return *settings.model;
+}
+
+std::unique_ptr<JointReference> reference(const RobotModel& model, const Sequence& sequence,
+                                          const std::optional<ToolSettings>& tool,
+                                          const Eigen::VectorXd& q) {
+  std::unique_ptr<JointReference> joints;
+  if (tool)
+    joints = std::make_unique<TaskSpace>(model, sequence, *tool, q);
+  else
+    joints = std::make_unique<JointSpace>(model, sequence.coordinates());
+  for (const Sequence::Step& step : sequence.steps()) joints->require_reachable(step.primitive);
   return joints;
 }
 
-Sample measured(const Robot& robot) {
-  Sample state(robot.dof());
-  robot.state(state.position, state.velocity);
-  return state;
+// Without forcing, for dmp3 to join any motion to rest.
+Primitive rest_at(const Eigen::VectorXd& q) {
+  Primitive rest;
+  for (Eigen::Index i = 0; i < q.size(); ++i) rest.coordinates.push_back(std::to_string(i));
+  rest.kernels = Kernels::even_in_time(2, 0.75, rest.alpha);
+  rest.weights.setZero(2, q.size());
+  rest.tau = brake_tau;
+  rest.goal = rest.start_position = q;
+  rest.start_velocity = rest.start_acceleration = Eigen::VectorXd::Zero(q.size());
+  return rest;
 }
 
-Sample selected(const Sample& state, const std::vector<Eigen::Index>& joints) {
-  Sample part(static_cast<int>(joints.size()));
-  part.position = state.position(joints);
-  part.velocity = state.velocity(joints);
-  return part;
+Controller::Tick tick_at(const Robot& robot, int n) {
+  Eigen::VectorXd q(robot.dof()), qd(robot.dof());
+  robot.state(q, qd);
+  Controller::Tick tick;
+  tick.q = q.head(n);
+  tick.qd = qd.head(n);
+  tick.torque.setZero(n);
+  tick.reference = Sample::at_rest(tick.q);
+  return tick;
 }
 
 const ControlSettings& valid(const ControlSettings& settings) {
@@ -42,35 +73,22 @@ constexpr double mark = 0.1234567890123;  // [N·m]
 
 }  // namespace
 
-void require_reachable(const Primitive& primitive, const RobotModel& robot) {
-  for (std::size_t c = 0; c < primitive.coordinates.size(); ++c) {
-    const int i = robot.joint(primitive.coordinates[c]);
-    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
-    const double goal = primitive.goal(static_cast<Eigen::Index>(c));
-    if (goal < joint.lower || goal > joint.upper)
-      throw Error("joint \"" + joint.name + "\"", "goal " + std::to_string(goal) + ", must be in " +
-                                                      std::to_string(joint.lower) + " to " +
-                                                      std::to_string(joint.upper));
-  }
-}
-
 Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
-                       const ControlSettings& settings)
+                       const ControllerSettings& settings)
     : robot_(robot),
-      joints_(joints_of(sequence, robot.model())),
-      sequencer_(sequence, join, selected(measured(robot), joints_)),
-      law_(InverseDynamics(robot.model()), valid(settings)) {
-  for (const Sequence::Step& step : sequence.steps())
-    require_reachable(step.primitive, robot.model());
-  const Sample state = measured(robot);
-  tick_.q = state.position;
-  tick_.qd = state.velocity;
-  tick_.torque.setZero(robot.dof());
-  tick_.reference = Sample::at_rest(state.position);
-  tick_.reference.velocity(joints_) = sequencer_.sample().velocity;
+      q_(robot.dof()),
+      qd_(robot.dof()),
+      tick_(tick_at(robot, known(robot, settings).dof())),
+      joints_(reference(known(robot, settings), sequence, settings.tool, tick_.q)),
+      sequencer_(sequence, join, joints_->measured(tick_.q, tick_.qd)),
+      brake_(rest_at(tick_.q)),
+      coming_to_rest_(tick_.q),
+      law_(InverseDynamics(known(robot, settings)), valid(settings.law)),
+      next_(tick_.reference) {
+  tick_.sequence = sequencer_.sample();
+  joints_->find(tick_.sequence, tick_.reference);
   law_.start(tick_.reference.velocity);
-  next_ = state.position;
-  applied_.setZero(robot.dof());
+  applied_.setZero(tick_.q.size());
 }
 
 Controller::~Controller() {
@@ -81,20 +99,35 @@ void Controller::pre_tick(double dt) noexcept {
   if (!(dt > 0.0)) return;
   tick_.time = sequencer_.time();
   tick_.running = sequencer_.running();
-  robot_.state(tick_.q, tick_.qd);
-  const Sample& now = sequencer_.sample();
-  for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const auto d = static_cast<Eigen::Index>(c);
-    tick_.reference.position(joints_[c]) = now.position(d);
-    tick_.reference.velocity(joints_[c]) = now.velocity(d);
-    tick_.reference.acceleration(joints_[c]) = now.acceleration(d);
-  }
+  measure();
+  tick_.reference = next_;
+  follow(tick_.reference);
+  tick_.sequence = sequencer_.sample();
+  tick_.tool_error = joints_->miss(tick_.sequence, tick_.q);
   sequencer_.step(dt);
-  for (std::size_t c = 0; c < joints_.size(); ++c)
-    next_(joints_[c]) = sequencer_.sample().position(static_cast<Eigen::Index>(c));
+  follow(next_);
+  if (status_ == Status::stopped) {
+    brake_.step(dt);
+    next_ = brake_.sample();
+  }
   law_.set_gravity(robot_.gravity_in_base());
-  law_.torque(dt, tick_.q, tick_.qd, tick_.reference, next_, tick_.torque);
+  law_.torque(dt, tick_.q, tick_.qd, tick_.reference, next_.position, tick_.torque);
   apply_torque();
+}
+
+void Controller::measure() noexcept {
+  robot_.state(q_, qd_);
+  tick_.q = q_.head(tick_.q.size());
+  tick_.qd = qd_.head(tick_.q.size());
+}
+
+// Where there is no reference any more the joints come to rest from the last one that there was.
+void Controller::follow(Sample& joints) noexcept {
+  if (status_ == Status::stopped || joints_->find(sequencer_.sample(), joints)) return;
+  status_ = Status::stopped;
+  coming_to_rest_ = tick_.reference.position + stopping_time * tick_.reference.velocity;
+  brake_.set_goal(coming_to_rest_);
+  brake_.reinitialise(tick_.reference, 1.0, Join::dmp3);
 }
 
 // Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base
@@ -107,7 +140,7 @@ void Controller::apply_torque() noexcept {
     applied_ = tick_.torque - applied_;
   else
     applied_ = tick_.torque;
-  for (int i = 0; i < robot_.dof(); ++i) multibody.addJointTorque(i, applied_(i));
+  for (int i = 0; i < applied_.size(); ++i) multibody.addJointTorque(i, applied_(i));
   if (!still_stands) multibody.addBaseTorque(btVector3(mark, 0.0, 0.0));
   applied_ = tick_.torque;
   base_torque_ = multibody.getBaseTorque().x();

@@ -59,6 +59,7 @@ JoinMetrics measure(const Recording& recording, const RecordedJoin& join) {
   metrics.torque_jump_nm = torque_jump.maxCoeff();
   metrics.torque_jump_percent = 100.0 * torque_jump.cwiseQuotient(recording.effort).maxCoeff();
   metrics.acceleration_jump_rad_s2 = join.acceleration_jump;
+  metrics.acceleration_jump_m_s2 = join.linear_jump;
   return metrics;
 }
 
@@ -71,6 +72,8 @@ RunMetrics measure(const Recording& recording) {
     metrics.torque_jump_percent = worse(metrics.torque_jump_percent, at.torque_jump_percent);
     metrics.acceleration_jump_rad_s2 =
         worse(metrics.acceleration_jump_rad_s2, at.acceleration_jump_rad_s2);
+    metrics.acceleration_jump_m_s2 =
+        worse(metrics.acceleration_jump_m_s2, at.acceleration_jump_m_s2);
   }
   const Eigen::MatrixXd torque_rate = rate(recording.torque, recording.dt());
   const Eigen::MatrixXd jerk = rate(recording.ref_acc, recording.dt());
@@ -81,6 +84,9 @@ RunMetrics measure(const Recording& recording) {
   metrics.jerk_rms_rad_s3 = worst_rms(jerk);
   metrics.tracking_max_rad = peak(error);
   metrics.tracking_rms_rad = worst_rms(error);
+  if (!recording.in_task_space()) return metrics;
+  metrics.tool_tracking_max_m = recording.tool_error_m.maxCoeff();
+  metrics.tool_tracking_max_rad = recording.tool_error_rad.maxCoeff();
   return metrics;
 }
 
@@ -88,6 +94,12 @@ double deviation_peak(const Recording& run, const Recording& other) {
   if (run.ref.rows() != other.ref.rows() || run.ref.cols() != other.ref.cols())
     throw Error("deviation", "the two runs differ in ticks or joints");
   return peak(run.ref - other.ref);
+}
+
+double tool_deviation_peak(const Recording& run, const Recording& other) {
+  if (!run.in_task_space() || !other.in_task_space() || run.ticks() != other.ticks())
+    throw Error("deviation", "the two runs differ in ticks, or are not both in task space");
+  return (run.tool_ref - other.tool_ref).leftCols<3>().rowwise().norm().maxCoeff();
 }
 
 }  // namespace seam

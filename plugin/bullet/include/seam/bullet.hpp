@@ -4,5 +4,8 @@
 #include <seam/computed_torque.hpp>
 #include <seam/controller.hpp>
 #include <seam/inverse_dynamics.hpp>
+#include <seam/inverse_kinematics.hpp>
+#include <seam/joint_reference.hpp>
+#include <seam/kinematics.hpp>
 #include <seam/plugin.hpp>
 #include <seam/robot.hpp>

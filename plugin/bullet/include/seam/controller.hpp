@@ -1,10 +1,13 @@
 #pragma once
 
-#include <vector>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include <seam/computed_torque.hpp>
+#include <seam/joint_reference.hpp>
 #include <seam/robot.hpp>
 #include <seam/sequencer.hpp>
 
@@ -12,11 +15,21 @@ namespace seam {
 
 class Plugin;
 
-/// @throws Error  a coordinate is not a joint of the robot, or the goal is outside a joint's limits
-void require_reachable(const Primitive& primitive, const RobotModel& robot);
+struct ControllerSettings {
+  ControlSettings law;
+  std::optional<ToolSettings> tool;  // the sequence's coordinates are this tool's, else they are joints
+  /// What the controller takes the robot for: a model that errs, or one without the passive joints that the robot in
+  /// Bullet has behind all others. Else the robot's own.
+  std::optional<RobotModel> model;
 
-/// Plays a sequence of joint-space primitives on a robot in Bullet. The sequence's coordinates are
-/// joint names; joints that it does not name hold the position they have now.
+  ControllerSettings() = default;
+  ControllerSettings(const ControlSettings& control, std::optional<ToolSettings> of = std::nullopt,
+                     std::optional<RobotModel> known = std::nullopt)
+      : law(control), tool(std::move(of)), model(std::move(known)) {}
+};
+
+/// Plays a sequence of primitives on a robot in Bullet, in joint space (coordinates are joint names; joints that are not
+/// named hold the position they have now) or in task space (see TaskSpace).
 ///
 /// Once per Bullet tick, before the forces are used, `pre_tick(dt)` reads the state, advances the
 /// sequence by dt, and adds the computed torque to the joints. `Plugin` makes those calls; an app
@@ -26,20 +39,29 @@ void require_reachable(const Primitive& primitive, const RobotModel& robot);
 /// its way. One controller at a time for a robot, which is borrowed and must outlive it.
 class Controller {
  public:
+  enum class Status {
+    following,
+    stopped,  ///< the sequence led where the joints cannot follow (out of reach, a joint's limit, a singularity): they
+              ///< come to rest smoothly from where they were, and stay
+  };
+
   /// The work of one tick: the state and reference at its beginning, and the torque commanded for
   /// it.
   struct Tick {
     double time = 0.0;       // [s] since the controller was made
     int running = -1;        // index of the running primitive, -1 before the first
-    Sample reference;        // n joints
+    Sample sequence;         // its coordinates
+    Sample reference;        // n joints of the controller's model
+    ToolError tool_error;    // at the tick's beginning; nothing in joint space
     Eigen::VectorXd q, qd;   // n [rad], [rad/s]
     Eigen::VectorXd torque;  // n [N·m]
   };
 
-  /// @throws Error  a coordinate is not a joint of the robot, a goal is outside a joint's limits, an
-  ///                empty sequence, gains that are negative or not finite
+  /// @throws Error  a coordinate is not a joint of the robot, a goal is outside a joint's limits or out of reach, an
+  ///                empty sequence, gains that are negative or not finite, a model whose joints are not the robot's first
+  ///                ones, and whatever TaskSpace refuses
   Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
-             const ControlSettings& settings = {});
+             const ControllerSettings& settings = {});
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
   ~Controller();
@@ -49,6 +71,7 @@ class Controller {
 
   /// The last switch has been due; the arm goes on to the last goal and stays there.
   bool finished() const noexcept { return sequencer_.finished(); }
+  Status status() const noexcept { return status_; }
   /// The sequence as it runs: for changing its goal, tau, amplitude and queue between ticks.
   Sequencer& sequencer() noexcept { return sequencer_; }
   const Sequencer& sequencer() const noexcept { return sequencer_; }
@@ -57,14 +80,20 @@ class Controller {
  private:
   friend class Plugin;
 
+  void measure() noexcept;
+  void follow(Sample& joints) noexcept;
   void apply_torque() noexcept;
 
   Robot& robot_;
-  std::vector<Eigen::Index> joints_;  // of each coordinate
-  Sequencer sequencer_;
-  ComputedTorque law_;
+  Eigen::VectorXd q_, qd_;  // of the robot with its passive joints
   Tick tick_;
-  Eigen::VectorXd next_;      // n, reference position at the end of the tick
+  std::unique_ptr<JointReference> joints_;
+  Sequencer sequencer_;
+  Execution brake_;                 // n joints; leads to rest
+  Eigen::VectorXd coming_to_rest_;  // n
+  ComputedTorque law_;
+  Sample next_;  // n, reference at the end of the tick
+  Status status_ = Status::following;
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
   bool marked_ = false;
   Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody

@@ -11,7 +11,20 @@ namespace seam {
 struct RecordedJoin {
   double time = 0.0;               // [s]
   int primitive = 0;               // index of the one that took over; 0 is the start
-  double acceleration_jump = 0.0;  // [rad/s²] largest over coordinates, exact one-sided values
+  double acceleration_jump = 0.0;  // [rad/s²] largest over angles, exact one-sided values
+  double linear_jump = 0.0;        // [m/s²] likewise, over the tool's x y z
+};
+
+/// Something else that was recorded at every tick; the name carries its unit.
+struct Signal {
+  std::string name;
+  Eigen::VectorXd values;  // N
+};
+
+/// What came of a run as a whole; the name is a metric's and carries its unit.
+struct Outcome {
+  std::string name;
+  double value;
 };
 
 /// What a run on a robot with n joints left behind: one row per tick, the state before the tick and
@@ -26,15 +39,27 @@ struct Recording {
   Eigen::MatrixXd torque;                 // N × n [N·m]
   std::vector<RecordedJoin> joins;
 
+  // In task space alone.
+  std::vector<std::string> coordinates;            // D: x y z [m], rx ry rz [rad]
+  Eigen::MatrixXd tool_ref, tool_vel, tool_acc;    // N × D
+  Eigen::VectorXd tool_error_m, tool_error_rad;    // N, of the tool from its reference
+
+  std::vector<Signal> signals;
+  std::vector<Outcome> outcomes;
+
   Recording() = default;
   /// Room for a number of ticks; nothing allocates afterwards.
-  Recording(std::vector<std::string> joint_names, Eigen::VectorXd effort_limits, int ticks);
+  /// @param tool_coordinates  D, none in joint space
+  Recording(std::vector<std::string> joint_names, Eigen::VectorXd effort_limits, int ticks,
+            std::vector<std::string> tool_coordinates = {});
 
   int ticks() const { return static_cast<int>(time.size()); }
   double dt() const { return time(1) - time(0); }  // [s]
 
+  bool in_task_space() const { return !coordinates.empty(); }
+
   /// Writes the table as CSV: time, switch, ref.<j>, ref_vel.<j>, ref_acc.<j>, q.<j>, qd.<j>,
-  /// torque.<j>.
+  /// torque.<j>; in task space also ref.<c>, ref_vel.<c>, ref_acc.<c>, tool_error_m, tool_error_rad; the signals.
   /// @throws Error  cannot be written
   void write(const std::string& path) const;
 };

@@ -1,0 +1,153 @@
+#include <cmath>
+
+#include <seam/error.hpp>
+#include <seam/joint_reference.hpp>
+#include <seam/orientation.hpp>
+
+namespace seam {
+
+namespace {
+
+constexpr double same_posture = 1e-6;  // [rad or m]
+
+int tool_dimensions(const std::vector<std::string>& coordinates) {
+  if (coordinates == std::vector<std::string>{"x", "y", "z"}) return 3;
+  if (coordinates == std::vector<std::string>{"x", "y", "z", "rx", "ry", "rz"}) return 6;
+  throw Error("sequence", "moves other coordinates than a tool's x y z or x y z rx ry rz");
+}
+
+PostureSettings resting_at(PostureSettings posture, const Eigen::VectorXd& q) {
+  if (posture.rest.size() == 0) posture.rest = q;
+  return posture;
+}
+
+}  // namespace
+
+JointSpace::JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates)
+    : robot_(robot), coordinates_(coordinates) {
+  for (const std::string& coordinate : coordinates) joints_.push_back(robot.joint(coordinate));
+}
+
+Sample JointSpace::measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  Sample part(static_cast<int>(joints_.size()));
+  part.position = q(joints_);
+  part.velocity = qd(joints_);
+  return part;
+}
+
+void JointSpace::require_reachable(const Primitive& primitive) {
+  for (std::size_t c = 0; c < primitive.coordinates.size(); ++c) {
+    const int i = robot_.joint(primitive.coordinates[c]);
+    const Joint& joint = robot_.joints[static_cast<std::size_t>(i)];
+    const double goal = primitive.goal(static_cast<Eigen::Index>(c));
+    if (goal < joint.lower || goal > joint.upper)
+      throw Error("joint \"" + joint.name + "\"", "goal " + std::to_string(goal) + ", must be in " +
+                                                      std::to_string(joint.lower) + " to " +
+                                                      std::to_string(joint.upper));
+  }
+}
+
+bool JointSpace::find(const Sample& sample, Sample& joints) noexcept {
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const auto d = static_cast<Eigen::Index>(c);
+    joints.position(joints_[c]) = sample.position(d);
+    joints.velocity(joints_[c]) = sample.velocity(d);
+    joints.acceleration(joints_[c]) = sample.acceleration(d);
+  }
+  return true;
+}
+
+TaskSpace::TaskSpace(const RobotModel& robot, const Sequence& sequence, const ToolSettings& tool,
+                     const Eigen::VectorXd& q)
+    : dimensions_(tool_dimensions(sequence.coordinates())),
+      most_speed_(tool.most_speed),
+      tool_(robot, tool.link, tool.X_link_tool),
+      solver_(robot, tool_, resting_at(tool.posture, q)),
+      reference_(tool.orientation.value_or(Eigen::Quaterniond(tool_at(q).linear()))) {
+  if (!(most_speed_ > 0.0)) throw Error("tool", "most_speed must be > 0");
+  solution_.position = solution_.velocity = solution_.acceleration = q;
+  if (!turns()) return;
+  const auto& reference = sequence.steps().front().primitive.reference_orientation;
+  if (!reference)
+    throw Error("sequence", "turns the tool, but its primitives have no reference orientation");
+  reference_ = *reference;
+}
+
+Eigen::Isometry3d TaskSpace::tool_at(const Eigen::VectorXd& q) noexcept {
+  tool_.move_to(q);
+  return tool_.X_base_tool();
+}
+
+Eigen::Isometry3d TaskSpace::pose(
+    const Eigen::Ref<const Eigen::VectorXd>& position) const noexcept {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = position.head<3>();
+  const Eigen::Quaterniond turned =
+      turns() ? orientation(position.tail<3>(), reference_) : reference_;
+  X.linear() = turned.toRotationMatrix();
+  return X;
+}
+
+Sample TaskSpace::measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  const Eigen::Isometry3d X = tool_at(q);
+  solver_.start(q);
+  target_ = {X, tool_.jacobian() * qd, Vector6d::Zero()};
+  if (solver_.follow(target_, solution_) != InverseKinematics::Status::exact ||
+      (solution_.position - q).cwiseAbs().maxCoeff() > same_posture)
+    throw Error("controller", "the joints are not where the posture puts them for their tool");
+  Sample at(dimensions_);
+  at.position.head<3>() = X.translation();
+  at.velocity.head<3>() = target_.velocity.head<3>();
+  if (!turns()) return at;
+  RotationState turn;
+  const OrientationState is{Eigen::Quaterniond(X.linear()), target_.velocity.tail<3>(),
+                            Eigen::Vector3d::Zero()};
+  if (!to_rotation(is, reference_, turn))
+    throw Error("controller", "the tool is turned by more than pi from the sequence's reference");
+  at.position.tail<3>() = turn.vector;
+  at.velocity.tail<3>() = turn.velocity;
+  at.acceleration.tail<3>() = turn.acceleration;
+  return at;
+}
+
+void TaskSpace::require_reachable(const Primitive& primitive) {
+  InverseKinematics elsewhere = solver_;
+  elsewhere.reach(pose(primitive.goal));
+}
+
+bool TaskSpace::to_tool(const Sample& sample) noexcept {
+  target_.pose = pose(sample.position);
+  target_.velocity.setZero();
+  target_.acceleration.setZero();
+  target_.velocity.head<3>() = sample.velocity.head<3>();
+  target_.acceleration.head<3>() = sample.acceleration.head<3>();
+  if (!turns()) return sample.position.allFinite();
+  OrientationState turned;
+  const RotationState turn{sample.position.tail<3>(), sample.velocity.tail<3>(),
+                           sample.acceleration.tail<3>()};
+  if (!to_orientation(turn, reference_, turned)) return false;
+  target_.velocity.tail<3>() = turned.velocity;
+  target_.acceleration.tail<3>() = turned.acceleration;
+  return true;
+}
+
+bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
+  if (!to_tool(sample) ||
+      solver_.follow(target_, solution_) != InverseKinematics::Status::exact ||
+      !(solution_.velocity.cwiseAbs().maxCoeff() <= most_speed_))
+    return false;
+  joints.position = solution_.position;
+  joints.velocity = solution_.velocity;
+  joints.acceleration = solution_.acceleration;
+  return true;
+}
+
+ToolError TaskSpace::miss(const Sample& sample, const Eigen::VectorXd& q) noexcept {
+  const Eigen::Isometry3d is = tool_at(q);
+  const Eigen::Isometry3d should = pose(sample.position);
+  return {(is.translation() - should.translation()).norm(),
+          rotation_vector(Eigen::Quaterniond(is.linear()), Eigen::Quaterniond(should.linear()))
+              .norm()};
+}
+
+}  // namespace seam
