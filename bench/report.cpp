@@ -40,7 +40,7 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
       runs.push_back({{"scene", comparison.scene.name},
                       {"method", to_string(run.method)},
                       {"dt", comparison.dt},
-                      {"seed", 0},
+                      {"seed", comparison.scene.seed},
                       {"joins", joins_of(run)},
                       {"metrics", metrics}});
     }

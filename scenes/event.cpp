@@ -1,7 +1,9 @@
 #include "scenes/event.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <random>
 
 #include "plugin/files/src/yaml_reader.hpp"
 
@@ -20,8 +22,10 @@ Eigen::VectorXd read_goal(const YamlEntry& entry, const std::vector<std::string>
   return goal;
 }
 
+constexpr const char* kinds = "must have one of goal, tau, amplitude, rate, hand_over";
+constexpr double most_pictures = 1e5;
+
 Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordinates) {
-  constexpr const char* kinds = "must have one of goal, tau, amplitude, rate, hand_over";
   entry.only({"at", "goal", "tau", "amplitude", "rate", "over", "hand_over"});
   Event event;
   event.at = entry.at("at").not_negative();
@@ -46,6 +50,40 @@ Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordin
   return event;
 }
 
+// The sum of twelve even ones, so that every platform draws the same.
+double normal(std::mt19937_64& random) {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 11) * 0x1p-53;
+  return sum;
+}
+
+// Where something is that moves at a constant velocity, seen at every picture of a camera.
+void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates,
+           std::mt19937_64& random, std::vector<Event>& events) {
+  entry.only({"from", "to", "every", "goal", "velocity", "noise"});
+  const double from = entry.at("from").not_negative();
+  const double to = entry.at("to").not_negative();
+  const double every = entry.at("every").positive();
+  if (to < from) entry.at("to").fail(entry.at("to").text() + ", must be >= from");
+  if ((to - from) / every > most_pictures) entry.at("every").fail("gives more than 1e5 events");
+  const Eigen::VectorXd goal = read_goal(entry.at("goal"), coordinates);
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(goal.size());
+  if (const auto moving = entry.find("velocity")) {
+    const Eigen::VectorXd named = read_goal(*moving, coordinates);
+    velocity = named.array().isNaN().select(velocity, named);
+  }
+  const auto noise = entry.find("noise");
+  const double spread = noise ? noise->not_negative() : 0.0;
+  const int pictures = static_cast<int>((to - from) / every + 1e-9) + 1;
+  for (int i = 0; i < pictures; ++i) {
+    Event event;
+    event.at = from + i * every;
+    event.goal = goal + (event.at - from) * velocity;
+    for (double& seen : event.goal) seen += spread * normal(random);
+    events.push_back(std::move(event));
+  }
+}
+
 }  // namespace
 
 bool Event::happen(Sequencer& sequencer) const noexcept {
@@ -65,9 +103,15 @@ bool Event::happen(Sequencer& sequencer) const noexcept {
 }
 
 std::vector<Event> read_events(const YamlEntry& entry,
-                               const std::vector<std::string>& coordinates) {
+                               const std::vector<std::string>& coordinates, int seed) {
   std::vector<Event> events;
-  for (const YamlEntry& item : entry.items()) events.push_back(read_event(item, coordinates));
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  for (const YamlEntry& item : entry.items()) {
+    if (item.find("every"))
+      watch(item, coordinates, random, events);
+    else
+      events.push_back(read_event(item, coordinates));
+  }
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.at < b.at; });
   return events;

@@ -25,8 +25,11 @@ struct Event {
   bool happen(Sequencer& sequencer) const noexcept;
 };
 
-/// Reads the list `events:` of a scene (see scenes/README.md), sorted by time.
+/// Reads the list `events:` of a scene (see scenes/README.md), sorted by time. One that is seen by a camera becomes an
+/// event per picture, with normally distributed noise on each coordinate that it names.
+/// @param seed  of the noise
 /// @throws Error  names file, line and key
-std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::string>& coordinates);
+std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::string>& coordinates,
+                               int seed);
 
 }  // namespace seam

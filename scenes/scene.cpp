@@ -119,7 +119,7 @@ int Scene::ticks(double step) const {
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "tool", "sequence", "events", "control", "dt", "settle",
+  root.only({"format", "title", "robot", "tool", "sequence", "events", "control", "seed", "dt", "settle",
              "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
@@ -131,8 +131,9 @@ Scene Scene::read(const std::string& path) {
   if (tool) start_with_tool(*tool, scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);
   if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt, scene.control);
+  if (const auto seed = root.find("seed")) scene.seed = seed->count(0);
   if (const auto events = root.find("events"))
-    scene.events = read_events(*events, scene.sequence.coordinates());
+    scene.events = read_events(*events, scene.sequence.coordinates(), scene.seed);
   scene.duration = read_duration(root, scene.sequence);
   const YamlEntry figure = root.at("figure");
   scene.figure = figure.text();

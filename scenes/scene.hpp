@@ -28,6 +28,7 @@ struct Scene {
   ControlSettings control;
   double dt = 1e-3;       // [s] Bullet's tick
   double duration = 0.0;  // [s] of a run
+  int seed = 0;           // of whatever is drawn by chance
   std::vector<Event> events;
   std::string figure;  // the joint, or the tool's coordinate, that the figure shows
 
