@@ -82,20 +82,34 @@ Recording play(const Scene& scene, Join method, double dt) {
                 "a tick of " + std::to_string(dt) +
                     " s, must be in 1e-6 to 0.1 s and short enough for the control gains");
   World world;
-  Robot robot(scene.robot, *world);
-  robot.reset(scene.start, Eigen::VectorXd::Zero(robot.dof()));
+  Robot robot(scene.simulated, *world);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(robot.dof());
+  start.head(scene.start.size()) = scene.start;
+  robot.reset(start, Eigen::VectorXd::Zero(robot.dof()));
   Controller controller(robot, scene.sequence, method, scene.controller());
   Plugin plugin(*world);
   plugin.add(controller);
 
   const int ticks = scene.ticks(dt);
   Recording recording = room_for(scene, ticks);
+  std::optional<Liquid> liquid;
+  if (scene.liquid) {
+    liquid.emplace(robot, *scene.liquid);
+    recording.signals.push_back({"wave_m", Eigen::VectorXd::Zero(ticks)});
+  }
   auto event = scene.events.begin();
   for (int k = 0; k < ticks; ++k) {
     for (; event != scene.events.end() && event->at <= (k + same_tick) * dt; ++event)
       happen(*event, scene, k * dt, controller.sequencer(), recording.joins);
+    if (liquid) liquid->pre_tick();
     world->stepSimulation(dt, 0);
+    if (liquid) recording.signals.back().values(k) = liquid->wave();
     record(controller.last_tick(), k * dt, k, recording);
+  }
+  if (liquid) {
+    const double peak = recording.signals.back().values.maxCoeff();
+    recording.outcomes.push_back({"wave_peak_m", peak});
+    recording.outcomes.push_back({"spilled_share", share_above_rim(*scene.liquid, peak)});
   }
   if (controller.status() == Controller::Status::stopped)
     recording.outcomes.push_back({"stopped_out_of_reach", 1.0});

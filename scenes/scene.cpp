@@ -49,6 +49,40 @@ ToolSettings read_tool(const YamlEntry& entry, const Scene& scene) {
   return tool;
 }
 
+LiquidSettings read_liquid_settings(const YamlEntry& entry) {
+  LiquidSettings liquid;
+  const auto set = [&](const char* key, double& value) {
+    if (const auto given = entry.find(key)) value = given->not_negative();
+  };
+  set("radius", liquid.radius);
+  set("depth", liquid.depth);
+  set("rim", liquid.rim);
+  set("density", liquid.density);
+  set("viscosity", liquid.viscosity);
+  set("glass", liquid.glass);
+  return liquid;
+}
+
+// In a glass that the tool holds upright.
+void read_liquid(const YamlEntry& entry, Scene& scene) {
+  entry.only({"bottom", "radius", "depth", "rim", "density", "viscosity", "glass", "frozen"});
+  if (!scene.tool) entry.fail("needs a tool that holds it");
+  const LiquidSettings liquid = read_liquid_settings(entry);
+  const Eigen::Isometry3d X_link_glass =
+      scene.tool->X_link_tool * Eigen::Translation3d(entry.at("bottom").numbers(3, "direction"));
+  const auto still = entry.find("frozen");
+  at_key(entry, [&] {
+    const std::string& link = scene.tool->link;
+    add_frozen_liquid(scene.robot, link, X_link_glass, liquid);
+    if (still && still->choice({"no", "yes"}) == 1) {
+      scene.simulated = scene.robot;
+      return;
+    }
+    scene.liquid = liquid;
+    add_liquid(scene.simulated, link, X_link_glass, liquid);
+  });
+}
+
 std::unique_ptr<JointReference> reference(const Scene& scene, const Primitive& primitive) {
   if (!scene.tool) return std::make_unique<JointSpace>(scene.robot, primitive.coordinates);
   return std::make_unique<TaskSpace>(scene.robot, Sequence().then(primitive), *scene.tool,
@@ -119,7 +153,7 @@ int Scene::ticks(double step) const {
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "tool", "sequence", "events", "control", "seed", "dt", "settle",
+  root.only({"format", "title", "robot", "tool", "liquid", "sequence", "events", "control", "seed", "dt", "settle",
              "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
@@ -127,6 +161,8 @@ Scene Scene::read(const std::string& path) {
   read_robot(root.at("robot"), scene);
   const auto tool = root.find("tool");
   if (tool) scene.tool = read_tool(*tool, scene);
+  scene.simulated = scene.robot;
+  if (const auto liquid = root.find("liquid")) read_liquid(*liquid, scene);
   read_steps(root.at("sequence"), scene);
   if (tool) start_with_tool(*tool, scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "scenes/event.hpp"
+#include "scenes/liquid.hpp"
 #include <seam/controller.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
@@ -20,7 +21,9 @@ inline constexpr double largest_tick = 0.1;
 struct Scene {
   std::string name;   // the file's name without its ending
   std::string title;  // one line
-  RobotModel robot;
+  RobotModel robot;      // as the controller takes it to be
+  RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
+  std::optional<LiquidSettings> liquid;  // that moves
   Eigen::VectorXd start;  // [rad] joint positions at rest
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
@@ -33,7 +36,7 @@ struct Scene {
   std::string figure;  // the joint, or the tool's coordinate, that the figure shows
 
   int ticks(double step) const;  // of a run
-  ControllerSettings controller() const { return {control, tool, std::nullopt}; }
+  ControllerSettings controller() const { return {control, tool, robot}; }
 
   /// Reads a scene file (the format is explained in scenes/README.md).
   /// @throws Error  names file, line and key
