@@ -83,6 +83,53 @@ void read_liquid(const YamlEntry& entry, Scene& scene) {
   });
 }
 
+VesselSettings read_vessel(const YamlEntry& entry, const char* where) {
+  entry.only({where, "radius", "height", "wall", "mass"});
+  VesselSettings vessel;
+  const auto set = [&](const char* key, double& value) {
+    if (const auto given = entry.find(key)) value = given->positive();
+  };
+  set("radius", vessel.radius);
+  set("height", vessel.height);
+  set("wall", vessel.wall);
+  set("mass", vessel.mass);
+  return vessel;
+}
+
+GrainSettings read_grains(const YamlEntry& entry) {
+  entry.only({"count", "radius", "mass", "friction", "restitution"});
+  GrainSettings grains;
+  if (const auto count = entry.find("count")) grains.count = count->count(1);
+  if (const auto radius = entry.find("radius")) grains.radius = radius->positive();
+  if (const auto mass = entry.find("mass")) grains.mass = mass->positive();
+  if (const auto friction = entry.find("friction")) grains.friction = friction->not_negative();
+  if (const auto bounce = entry.find("restitution")) grains.restitution = bounce->not_negative();
+  return grains;
+}
+
+void read_pouring(const YamlEntry& entry, Scene& scene) {
+  entry.only({"bottle", "grains", "glass", "places"});
+  if (!scene.tool) entry.fail("needs a tool that holds the bottle");
+  Pouring pouring;
+  const YamlEntry bottle = entry.at("bottle");
+  const YamlEntry glass = entry.at("glass");
+  pouring.bottle = read_vessel(bottle, "bottom");
+  pouring.glass = read_vessel(glass, "at");
+  pouring.X_link_bottle = scene.tool->X_link_tool *
+                          Eigen::Translation3d(bottle.at("bottom").numbers(3, "direction"));
+  pouring.glass_at = glass.at("at").numbers(3, "direction");
+  if (const auto grains = entry.find("grains")) pouring.grains = read_grains(*grains);
+  pouring.places = {Eigen::Vector3d::Zero()};
+  if (const auto places = entry.find("places"))
+    for (const YamlEntry& place : places->items())
+      pouring.places.emplace_back(place.numbers(3, "direction"));
+  at_key(entry, [&] {
+    for (RobotModel* robot : {&scene.robot, &scene.simulated})
+      add_vessel(*robot, scene.tool->link, pouring.X_link_bottle, pouring.bottle);
+  });
+  scene.pouring = std::move(pouring);
+}
+
 std::unique_ptr<JointReference> reference(const Scene& scene, const Primitive& primitive) {
   if (!scene.tool) return std::make_unique<JointSpace>(scene.robot, primitive.coordinates);
   return std::make_unique<TaskSpace>(scene.robot, Sequence().then(primitive), *scene.tool,
@@ -146,6 +193,20 @@ double read_duration(const YamlEntry& root, const Sequence& sequence) {
 
 }  // namespace
 
+Sequence Scene::sequence_at(std::size_t place) const {
+  if (place == 0) return sequence;
+  const Eigen::Vector3d& by = pouring->places[place];
+  Sequence moved;
+  moved.start_after(sequence.start_delay());
+  for (const Sequence::Step& step : sequence.steps()) {
+    Primitive primitive = step.primitive;
+    primitive.goal.head<3>() += by;
+    moved.then(std::move(primitive)).until(step.until);
+    if (step.primitive.kind == Kind::rhythmic) moved.enter(step.entry);
+  }
+  return moved;
+}
+
 int Scene::ticks(double step) const {
   return static_cast<int>(std::lround(duration / step));
 }
@@ -153,7 +214,7 @@ int Scene::ticks(double step) const {
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "tool", "liquid", "sequence", "events", "control", "seed", "dt", "settle",
+  root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events", "control", "seed", "dt", "settle",
              "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
@@ -163,6 +224,7 @@ Scene Scene::read(const std::string& path) {
   if (tool) scene.tool = read_tool(*tool, scene);
   scene.simulated = scene.robot;
   if (const auto liquid = root.find("liquid")) read_liquid(*liquid, scene);
+  if (const auto pouring = root.find("pouring")) read_pouring(*pouring, scene);
   read_steps(root.at("sequence"), scene);
   if (tool) start_with_tool(*tool, scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "scenes/event.hpp"
+#include "scenes/grains.hpp"
 #include "scenes/liquid.hpp"
 #include <seam/controller.hpp>
 #include <seam/robot_model.hpp>
@@ -17,6 +18,15 @@ namespace seam {
 inline constexpr double least_tick = 1e-6;
 inline constexpr double largest_tick = 0.1;
 
+/// Grains that are poured from a bottle in the hand into a glass, which stands at any of several places.
+struct Pouring {
+  VesselSettings bottle, glass;
+  Eigen::Isometry3d X_link_bottle = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d glass_at = Eigen::Vector3d::Zero();  // [m] in the world, its bottom
+  GrainSettings grains;
+  std::vector<Eigen::Vector3d> places;  // [m] by which the glass, and with it the goals, are moved; the first is nothing
+};
+
 /// A scene file, read and learned: everything that a run needs but the joining method.
 struct Scene {
   std::string name;   // the file's name without its ending
@@ -24,6 +34,7 @@ struct Scene {
   RobotModel robot;      // as the controller takes it to be
   RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
   std::optional<LiquidSettings> liquid;  // that moves
+  std::optional<Pouring> pouring;
   Eigen::VectorXd start;  // [rad] joint positions at rest
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
@@ -36,6 +47,9 @@ struct Scene {
   std::string figure;  // the joint, or the tool's coordinate, that the figure shows
 
   int ticks(double step) const;  // of a run
+  std::size_t places() const { return pouring ? pouring->places.size() : 1; }
+  /// The sequence for a place of the glass: all goals are moved, the weights are those learned.
+  Sequence sequence_at(std::size_t place) const;
   ControllerSettings controller() const { return {control, tool, robot}; }
 
   /// Reads a scene file (the format is explained in scenes/README.md).

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scenes/scene.hpp"
+#include <seam/recording.hpp>
+#include <seam/robot.hpp>
+
+namespace seam {
+
+/// Something in a scene beside the robot: what it does before each tick, and what it adds to the recording.
+class Object {
+ public:
+  virtual ~Object() = default;
+  virtual void pre_tick(Eigen::Index tick) = 0;
+  /// After the last tick.
+  virtual void finish(Recording& recording) const = 0;
+};
+
+/// What a scene has of them.
+/// @param robot   stands where the scene begins, and must outlive them
+/// @param place   index of the glass's place
+std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
+                                                  std::size_t place);
+
+}  // namespace seam
