@@ -47,8 +47,12 @@ std::string file_of(std::size_t step) {
 void write_primitives(const Comparison& comparison, const std::string& folder) {
   const auto& joins = comparison.runs.front().recording.joins;
   const auto& steps = comparison.scene.sequence.steps();
-  for (std::size_t i = 0; i < std::min(steps.size(), joins.size()); ++i) {
-    alone(steps[i].primitive, joins[i].time, comparison.dt).write(folder + "/" + file_of(i));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto begun = std::find_if(joins.begin(), joins.end(), [&](const RecordedJoin& join) {
+      return join.primitive == static_cast<int>(i);
+    });
+    const double begin = begun == joins.end() ? 0.0 : begun->time;
+    alone(steps[i].primitive, begin, comparison.dt).write(folder + "/" + file_of(i));
   }
 }
 
@@ -120,8 +124,7 @@ std::string sequencing_script(const Comparison& comparison) {
   const int every = std::max(1, recording.ticks() / curve_points);
   std::string text = preamble(comparison, 1200, 1440);
   text += fmt::format("set xrange [0:{}]\n", recording.time(recording.ticks() - 1));
-  text +=
-      "set multiplot layout 4,1 title " + quoted(scene.title + ", " + scene.figure) + "\n";
+  text += "set multiplot layout 4,1 title " + quoted(scene.title + ", " + scene.figure) + "\n";
   const std::string u = unit(scene);
   text += "set ylabel 'each alone [" + u + "]'\nplot ";
   for (std::size_t i = 0; i < scene.primitive_names.size(); ++i)
@@ -160,6 +163,20 @@ std::string torque_script(const Comparison& comparison) {
   const std::string from_join = fmt::format("(1e3*(column('time')-{}))", join);
   return text + fmt::format("plot {}\nunset multiplot\n",
                             curves(comparison, from_join, column, 1, "linespoints pt 7 ps 0.8"));
+}
+
+std::string signal_script(const Comparison& comparison, const Signal& signal) {
+  const Recording& recording = comparison.runs.front().recording;
+  const int every = std::max(1, recording.ticks() / curve_points);
+  std::string text = preamble(comparison, 1200, 520);
+  if (comparison.scene.liquid)
+    text += fmt::format(
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead lw 2 lc rgb '#888888'\n",
+        comparison.scene.liquid->rim);
+  text += fmt::format("set xlabel 'time [s]'\nset ylabel {}\nset xrange [0:{}]\nplot {}\n",
+                      quoted(signal.name), recording.time(recording.ticks() - 1),
+                      curves(comparison, "'time'", signal.name, every, "lines"));
+  return text;
 }
 
 // Runs a program in a folder, its output in a log there; its exit status, 127 where it is not there.
@@ -229,6 +246,8 @@ void draw_figures(const Comparison& comparison, const std::string& dir) {
   write_primitives(comparison, folder);
   draw(folder, comparison.scene.name, sequencing_script(comparison));
   draw(folder, "torque", torque_script(comparison));
+  for (const Signal& signal : comparison.runs.front().recording.signals)
+    draw(folder, signal.name, signal_script(comparison, signal));
 }
 
 }  // namespace seam

@@ -11,7 +11,7 @@ void require_gnuplot();
 
 /// Draws a comparison with gnuplot into DIR/SCENE/: `SCENE.png`, laid out as the paper's Fig. 1
 /// (each primitive alone; joined position, velocity, acceleration of all methods), and `torque.png`
-/// (the joint's torque, whole and around the last join). The scripts and data that they are drawn
+/// (a joint's torque, whole and around the last join), and a picture of each signal that the scene adds. The scripts and data that they are drawn
 /// from stay beside them. The recordings must be there already.
 /// @throws Error  gnuplot is not there or fails (names its log), a file cannot be written
 void draw_figures(const Comparison& comparison, const std::string& dir);

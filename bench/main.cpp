@@ -22,6 +22,8 @@ struct Options {
   std::vector<std::string> scenes;
   std::vector<std::string> methods;
   double dt = 0.0;  // [s] 0: the scene's own
+  std::vector<double> speeds{1.0};
+  bool list = false;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::string out = "results";
 };
@@ -52,6 +54,24 @@ std::vector<seam::Scene> read_scenes(const std::vector<std::string>& names) {
   return scenes;
 }
 
+// Each scene at each speed.
+std::vector<seam::Scene> at_speeds(const std::vector<seam::Scene>& scenes,
+                                   const std::vector<double>& speeds) {
+  std::vector<seam::Scene> played;
+  for (const seam::Scene& scene : scenes)
+    for (const double speed : speeds) {
+      played.push_back(scene);
+      played.back().hasten(speed);
+      if (speed != 1.0) played.back().name += fmt::format("-{:g}x", speed);
+    }
+  return played;
+}
+
+void list_scenes(const std::vector<std::string>& names) {
+  for (const seam::Scene& scene : read_scenes(names))
+    fmt::print("{:10}  {}\n", scene.name, scene.title);
+}
+
 std::vector<seam::Join> read_methods(const std::vector<std::string>& names) {
   std::vector<seam::Join> methods;
   for (const std::string& name : names) methods.push_back(seam::join_from_name(name));
@@ -77,9 +97,11 @@ void print(const seam::Comparison& comparison) {
 void bench(const Options& options) {
   if (options.out.empty()) throw seam::Error("--out", "is empty, must be a folder");
   if (std::isnan(options.dt)) throw seam::Error("--dt", "nan, must be a time [s]");
+  if (options.list) return list_scenes(options.scenes);
   seam::require_gnuplot();
-  const auto comparisons = seam::compare(read_scenes(options.scenes), read_methods(options.methods),
-                                         options.dt, options.jobs, show_progress);
+  const auto comparisons =
+      seam::compare(at_speeds(read_scenes(options.scenes), options.speeds),
+                    read_methods(options.methods), options.dt, options.jobs, show_progress);
   seam::write_results(comparisons, SEAM_VERSION, options.out);
   for (const seam::Comparison& comparison : comparisons) {
     print(comparison);
@@ -92,6 +114,12 @@ void bench(const Options& options) {
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--dt", options.dt, "Bullet's tick [s] (default: the scene's)")
       ->check(CLI::Number & CLI::Range(seam::least_tick, seam::largest_tick));
+  command
+      .add_option("--speed", options.speeds,
+                  "factors by which all is played faster; several are compared")
+      ->allow_extra_args(false)
+      ->delimiter(',')
+      ->check(CLI::Number & CLI::Range(1e-3, 1e3));
   command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -112,6 +140,7 @@ int run(int argc, char** argv) {
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
       ->allow_extra_args(false)
       ->delimiter(',');
+  compare.add_flag("--list", options.list, "name the scenes, a line each, and play none");
   add_common(compare, options);
 
   CLI::App& single = *app.add_subcommand("run", "play one scene with one method");

@@ -102,8 +102,8 @@ bool Event::happen(Sequencer& sequencer) const noexcept {
   return false;
 }
 
-std::vector<Event> read_events(const YamlEntry& entry,
-                               const std::vector<std::string>& coordinates, int seed) {
+std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::string>& coordinates,
+                               int seed) {
   std::vector<Event> events;
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   for (const YamlEntry& item : entry.items()) {

@@ -13,10 +13,10 @@ namespace seam {
 
 /// A hollow cylinder with a floor, open at the top. Its frame: bottom centre, z its axis.
 struct VesselSettings {
-  double radius = 0.03;   // [m] inside
-  double height = 0.14;   // [m] inside
-  double wall = 0.004;    // [m] thickness
-  double mass = 0.2;      // [kg]
+  double radius = 0.03;  // [m] inside
+  double height = 0.14;  // [m] inside
+  double wall = 0.004;   // [m] thickness
+  double mass = 0.2;     // [kg]
 };
 
 /// The vessel as boxes: sixteen sides and the floor.
@@ -46,8 +46,8 @@ class StandingVessel {
 
 struct GrainSettings {
   int count = 32;
-  double radius = 0.005;     // [m]
-  double mass = 0.0013;      // [kg] of each
+  double radius = 0.005;  // [m]
+  double mass = 0.0013;   // [kg] of each
   double friction = 0.3;
   double restitution = 0.1;
 };

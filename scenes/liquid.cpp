@@ -130,7 +130,8 @@ double share_above_rim(const LiquidSettings& liquid, double wave) {
   double volume = 0.0;  // of R²
   for (int i = 0; i < rings; ++i) {
     const double rho = (i + 0.5) / rings;
-    const double height = wave * std::cyl_bessel_j(1.0, lambda * rho) / std::cyl_bessel_j(1.0, lambda);
+    const double height =
+        wave * std::cyl_bessel_j(1.0, lambda * rho) / std::cyl_bessel_j(1.0, lambda);
     for (int k = 0; k < sectors; ++k) {
       const double eta = height * std::cos(2.0 * M_PI * (k + 0.5) / sectors);
       volume += rho * std::max(eta - liquid.rim, 0.0);

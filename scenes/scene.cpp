@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "plugin/files/src/sequence_entry.hpp"
@@ -97,7 +98,7 @@ VesselSettings read_vessel(const YamlEntry& entry, const char* where) {
 }
 
 GrainSettings read_grains(const YamlEntry& entry) {
-  entry.only({"count", "radius", "mass", "friction", "restitution"});
+  entry.only({"count", "radius", "mass", "friction", "restitution", "frozen"});
   GrainSettings grains;
   if (const auto count = entry.find("count")) grains.count = count->count(1);
   if (const auto radius = entry.find("radius")) grains.radius = radius->positive();
@@ -115,19 +116,23 @@ void read_pouring(const YamlEntry& entry, Scene& scene) {
   const YamlEntry glass = entry.at("glass");
   pouring.bottle = read_vessel(bottle, "bottom");
   pouring.glass = read_vessel(glass, "at");
-  pouring.X_link_bottle = scene.tool->X_link_tool *
-                          Eigen::Translation3d(bottle.at("bottom").numbers(3, "direction"));
+  pouring.X_link_bottle =
+      scene.tool->X_link_tool * Eigen::Translation3d(bottle.at("bottom").numbers(3, "direction"));
   pouring.glass_at = glass.at("at").numbers(3, "direction");
   if (const auto grains = entry.find("grains")) pouring.grains = read_grains(*grains);
   pouring.places = {Eigen::Vector3d::Zero()};
   if (const auto places = entry.find("places"))
     for (const YamlEntry& place : places->items())
       pouring.places.emplace_back(place.numbers(3, "direction"));
+  const auto grains = entry.find("grains");
+  const auto still = grains ? grains->find("frozen") : std::nullopt;
+  const bool frozen = still && still->choice({"no", "yes"}) == 1;
+  if (frozen) pouring.bottle.mass += pouring.grains.count * pouring.grains.mass;
   at_key(entry, [&] {
     for (RobotModel* robot : {&scene.robot, &scene.simulated})
       add_vessel(*robot, scene.tool->link, pouring.X_link_bottle, pouring.bottle);
   });
-  scene.pouring = std::move(pouring);
+  if (!frozen) scene.pouring = std::move(pouring);
 }
 
 std::unique_ptr<JointReference> reference(const Scene& scene, const Primitive& primitive) {
@@ -193,18 +198,48 @@ double read_duration(const YamlEntry& root, const Sequence& sequence) {
 
 }  // namespace
 
+namespace {
+
+// A sequence of which every step is changed somehow.
+Sequence changed(const Sequence& from, double start_delay,
+                 const std::function<void(Sequence::Step&)>& change) {
+  Sequence to;
+  to.start_after(start_delay);
+  for (Sequence::Step step : from.steps()) {
+    change(step);
+    const bool rhythmic = step.primitive.kind == Kind::rhythmic;
+    to.then(std::move(step.primitive));
+    if (rhythmic) to.enter(step.entry);
+    to.until(step.until);
+  }
+  return to;
+}
+
+}  // namespace
+
 Sequence Scene::sequence_at(std::size_t place) const {
   if (place == 0) return sequence;
-  const Eigen::Vector3d& by = pouring->places[place];
-  Sequence moved;
-  moved.start_after(sequence.start_delay());
-  for (const Sequence::Step& step : sequence.steps()) {
-    Primitive primitive = step.primitive;
-    primitive.goal.head<3>() += by;
-    moved.then(std::move(primitive)).until(step.until);
-    if (step.primitive.kind == Kind::rhythmic) moved.enter(step.entry);
+  return changed(sequence, sequence.start_delay(), [&](Sequence::Step& step) {
+    step.primitive.goal.head<3>() += pouring->places[place];
+  });
+}
+
+void Scene::hasten(double factor) {
+  if (!(std::isfinite(factor) && factor > 0.0))
+    throw Error(name, "speed " + std::to_string(factor) + ", must be > 0");
+  sequence = changed(sequence, sequence.start_delay() / factor, [&](Sequence::Step& step) {
+    step.primitive.tau /= factor;
+    step.primitive.start_velocity *= factor;
+    step.primitive.start_acceleration *= factor * factor;
+    const auto when = step.until.when;
+    if (when == Switch::When::after || when == Switch::When::before_end) step.until.value /= factor;
+  });
+  for (Event& event : events) {
+    event.at /= factor;
+    event.over /= factor;
+    if (event.what == Event::What::tau) event.value /= factor;
   }
-  return moved;
+  duration /= factor;
 }
 
 int Scene::ticks(double step) const {
@@ -214,8 +249,8 @@ int Scene::ticks(double step) const {
 Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events", "control", "seed", "dt", "settle",
-             "duration", "figure"});
+  root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events",
+             "control", "seed", "dt", "settle", "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();

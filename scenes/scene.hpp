@@ -24,18 +24,19 @@ struct Pouring {
   Eigen::Isometry3d X_link_bottle = Eigen::Isometry3d::Identity();
   Eigen::Vector3d glass_at = Eigen::Vector3d::Zero();  // [m] in the world, its bottom
   GrainSettings grains;
-  std::vector<Eigen::Vector3d> places;  // [m] by which the glass, and with it the goals, are moved; the first is nothing
+  std::vector<Eigen::Vector3d>
+      places;  // [m] by which the glass, and with it the goals, are moved; the first is nothing
 };
 
 /// A scene file, read and learned: everything that a run needs but the joining method.
 struct Scene {
-  std::string name;   // the file's name without its ending
-  std::string title;  // one line
+  std::string name;      // the file's name without its ending
+  std::string title;     // one line
   RobotModel robot;      // as the controller takes it to be
   RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
   std::optional<LiquidSettings> liquid;  // that moves
   std::optional<Pouring> pouring;
-  Eigen::VectorXd start;  // [rad] joint positions at rest
+  Eigen::VectorXd start;             // [rad] joint positions at rest
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
@@ -50,6 +51,9 @@ struct Scene {
   std::size_t places() const { return pouring ? pouring->places.size() : 1; }
   /// The sequence for a place of the glass: all goals are moved, the weights are those learned.
   Sequence sequence_at(std::size_t place) const;
+  /// Plays all of it faster by a factor > 0: every time is divided by it, tau's and events' included.
+  /// @throws Error  not finite and > 0, or a tau out of its bounds then
+  void hasten(double factor);
   ControllerSettings controller() const { return {control, tool, robot}; }
 
   /// Reads a scene file (the format is explained in scenes/README.md).

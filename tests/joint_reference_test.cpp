@@ -119,8 +119,7 @@ TEST(TaskSpace, KeepsTheOrientationThatTheSequenceDoesNotTurn) {
 TEST(TaskSpace, JointVelocitiesAndAccelerationsAreTheDerivatives) {
   const Sequence task = there_and_back(six());
   TaskSpace space(arm(), task, hand(), posture());
-  Sequencer sequencer(task, Join::dmp3,
-                      space.measured(posture(), Eigen::VectorXd::Zero(7)));
+  Sequencer sequencer(task, Join::dmp3, space.measured(posture(), Eigen::VectorXd::Zero(7)));
   std::vector<Sample> joints;
   for (int k = 0; k < 400; ++k) {
     Sample sample(7);

@@ -43,9 +43,7 @@ struct Glass {
     add_liquid(model, "cart", Eigen::Isometry3d::Identity(), settings);
     return model;
   }
-  void shift(double x) {
-    robot.reset(Eigen::Vector3d(0.0, x, 0.0), Eigen::Vector3d::Zero());
-  }
+  void shift(double x) { robot.reset(Eigen::Vector3d(0.0, x, 0.0), Eigen::Vector3d::Zero()); }
   double shift() const { return robot.multibody().getJointPos(1); }
   void step() {
     liquid.pre_tick();

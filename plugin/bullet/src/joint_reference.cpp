@@ -132,8 +132,7 @@ bool TaskSpace::to_tool(const Sample& sample) noexcept {
 }
 
 bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
-  if (!to_tool(sample) ||
-      solver_.follow(target_, solution_) != InverseKinematics::Status::exact ||
+  if (!to_tool(sample) || solver_.follow(target_, solution_) != InverseKinematics::Status::exact ||
       !(solution_.velocity.cwiseAbs().maxCoeff() <= most_speed_))
     return false;
   joints.position = solution_.position;
@@ -145,9 +144,9 @@ bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
 ToolError TaskSpace::miss(const Sample& sample, const Eigen::VectorXd& q) noexcept {
   const Eigen::Isometry3d is = tool_at(q);
   const Eigen::Isometry3d should = pose(sample.position);
-  return {(is.translation() - should.translation()).norm(),
-          rotation_vector(Eigen::Quaterniond(is.linear()), Eigen::Quaterniond(should.linear()))
-              .norm()};
+  return {
+      (is.translation() - should.translation()).norm(),
+      rotation_vector(Eigen::Quaterniond(is.linear()), Eigen::Quaterniond(should.linear())).norm()};
 }
 
 }  // namespace seam

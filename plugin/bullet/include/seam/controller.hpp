@@ -17,7 +17,8 @@ class Plugin;
 
 struct ControllerSettings {
   ControlSettings law;
-  std::optional<ToolSettings> tool;  // the sequence's coordinates are this tool's, else they are joints
+  std::optional<ToolSettings>
+      tool;  // the sequence's coordinates are this tool's, else they are joints
   /// What the controller takes the robot for: a model that errs, or one without the passive joints that the robot in
   /// Bullet has behind all others. Else the robot's own.
   std::optional<RobotModel> model;

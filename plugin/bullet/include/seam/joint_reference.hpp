@@ -54,12 +54,13 @@ class JointSpace final : public JointReference {
 
 /// The tool that a task-space sequence moves, and the joints' posture while it does.
 struct ToolSettings {
-  std::string link;                                              // a URDF link of the robot
+  std::string link;                                               // a URDF link of the robot
   Eigen::Isometry3d X_link_tool = Eigen::Isometry3d::Identity();  // the tool's frame in it
   /// In the base, kept where the sequence does not turn the tool; empty: that at the beginning.
   std::optional<Eigen::Quaterniond> orientation;
   PostureSettings posture;  // rest empty: where the joints are when the controller begins
-  double most_speed = 10.0;  // [rad/s or m/s] of a joint; beyond it, near a singularity, there is no reference
+  double most_speed =
+      10.0;  // [rad/s or m/s] of a joint; beyond it, near a singularity, there is no reference
 };
 
 /// The coordinates are a tool's: x y z [m] in the frame of the robot's root link, and rx ry rz, the rotation vector about

@@ -44,7 +44,8 @@ struct RunMetrics {
   double jerk_rms_rad_s3 = 0.0;
   double tracking_max_rad = 0.0;  // [rad] largest |ref − q|
   double tracking_rms_rad = 0.0;  // of the joint where it is largest
-  double tool_tracking_max_m = 0.0;    // [m] largest distance of the tool from its reference; task space alone
+  double tool_tracking_max_m =
+      0.0;  // [m] largest distance of the tool from its reference; task space alone
   double tool_tracking_max_rad = 0.0;  // [rad] likewise
 };
 

@@ -40,9 +40,9 @@ struct Recording {
   std::vector<RecordedJoin> joins;
 
   // In task space alone.
-  std::vector<std::string> coordinates;            // D: x y z [m], rx ry rz [rad]
-  Eigen::MatrixXd tool_ref, tool_vel, tool_acc;    // N × D
-  Eigen::VectorXd tool_error_m, tool_error_rad;    // N, of the tool from its reference
+  std::vector<std::string> coordinates;          // D: x y z [m], rx ry rz [rad]
+  Eigen::MatrixXd tool_ref, tool_vel, tool_acc;  // N × D
+  Eigen::VectorXd tool_error_m, tool_error_rad;  // N, of the tool from its reference
 
   std::vector<Signal> signals;
   std::vector<Outcome> outcomes;
