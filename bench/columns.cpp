@@ -86,46 +86,88 @@ std::size_t width(const std::string& text) {
       text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
 }
 
-std::string cell(const Column& column, const Run& run) {
-  if (!std::isfinite(column.of(run))) return "n/a";
-  const std::string text = fmt::format(fmt::runtime(column.format), column.of(run));
+std::string shown(double value, const std::string& format) {
+  if (!std::isfinite(value)) return "n/a";
+  const std::string text = fmt::format(fmt::runtime(format), value);
   const bool minus_zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
   return minus_zero ? text.substr(1) : text;
 }
 
-std::vector<std::vector<std::string>> cells(const Comparison& comparison) {
-  std::vector<std::vector<std::string>> rows(1, {"method"});
-  const std::vector<Column> shown = columns(comparison);
-  for (const Column& column : shown) rows[0].push_back(column.heading);
+using Rows = std::vector<std::vector<std::string>>;
+
+Rows cells(const Comparison& comparison) {
+  Rows rows(1, {"method"});
+  const std::vector<Column> list = columns(comparison);
+  for (const Column& column : list) rows[0].push_back(column.heading);
   for (const Run& run : comparison.runs) {
     std::vector<std::string> row{std::string(to_string(run.method))};
-    for (const Column& column : shown) row.push_back(cell(column, run));
+    for (const Column& column : list) row.push_back(shown(column.of(run), column.format));
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-}  // namespace
-
-std::string table(const Comparison& comparison) {
-  const auto rows = cells(comparison);
+// Aligned for reading on a terminal; the first `texts` columns to the left.
+std::string markdown(const Rows& rows, std::size_t texts) {
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
   std::string text;
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    text += "|";
     for (std::size_t c = 0; c < widths.size(); ++c) {
       const std::string padding(widths[c] - width(rows[r][c]), ' ');
-      text += c == 0 ? "| " + rows[r][c] + padding + " |" : " " + padding + rows[r][c] + " |";
+      text += c < texts ? " " + rows[r][c] + padding + " |" : " " + padding + rows[r][c] + " |";
     }
     text += '\n';
     if (r > 0) continue;
+    text += "|";
     for (std::size_t c = 0; c < widths.size(); ++c)
-      text += c == 0 ? "|" + std::string(widths[c] + 2, '-') + "|"
-                     : std::string(widths[c] + 1, '-') + ":|";
+      text += std::string(widths[c] + (c < texts ? 2 : 1), '-') + (c < texts ? "|" : ":|");
     text += '\n';
   }
   return text;
+}
+
+// What a scene adds, in words.
+std::string came_of(const Run& run) {
+  std::string text;
+  for (const Outcome& outcome : run.recording.outcomes) {
+    if (outcome.name == "stopped_share" && outcome.value == 0.0) continue;
+    const bool share = outcome.name.find("_share") != std::string::npos;
+    text += (text.empty() ? "" : ", ") + outcome.name.substr(0, outcome.name.rfind('_')) + " " +
+            (share ? fmt::format("{:.3g} %", 100.0 * outcome.value)
+                   : fmt::format("{:.1f} mm", 1e3 * outcome.value));
+  }
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string table(const Comparison& comparison) {
+  return markdown(cells(comparison), 1);
+}
+
+std::string overview(const std::vector<Comparison>& comparisons) {
+  Rows rows{{"scene", "method", "what came of it", "torque jump [N·m]", "of dmp2's [%]", "order",
+             "peak torque rate [N·m/s]", "peak jerk [rad/s³]", "deviation [rad]"}};
+  for (const Comparison& comparison : comparisons) {
+    const auto dmp2 = std::find_if(comparison.runs.begin(), comparison.runs.end(),
+                                   [](const Run& run) { return run.method == Join::dmp2; });
+    for (const Run& run : comparison.runs) {
+      const double share = dmp2 == comparison.runs.end()
+                               ? std::numeric_limits<double>::quiet_NaN()
+                               : 100.0 * run.metrics.torque_jump_nm / dmp2->metrics.torque_jump_nm;
+      rows.push_back({comparison.scene.name, std::string(to_string(run.method)), came_of(run),
+                      shown(run.metrics.torque_jump_nm, "{:.3g}"), shown(share, share < 10.0 ? "{:.2g}" : "{:.0f}"),
+                      shown(run.torque_jump_order, "{:.1f}"),
+                      shown(run.metrics.torque_rate_peak_nm_s, "{:.0f}"),
+                      shown(run.metrics.jerk_peak_rad_s3, "{:.0f}"),
+                      shown(run.deviation_peak_rad, "{:.3f}")});
+    }
+  }
+  return markdown(rows, 3);
 }
 
 }  // namespace seam

@@ -22,5 +22,7 @@ std::vector<Column> columns(const Comparison& comparison);
 
 /// The comparison as a Markdown table that is aligned for reading on a terminal.
 std::string table(const Comparison& comparison);
+/// All scenes and methods in one table: what came of each, and what it cost.
+std::string overview(const std::vector<Comparison>& comparisons);
 
 }  // namespace seam

@@ -56,6 +56,11 @@ void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
   if (failure) std::rethrow_exception(failure);
 }
 
+// A scene is played at each of its places.
+double simulated(const Play& play) {
+  return play.dt * play.recording.ticks() * static_cast<double>(play.scene->places());
+}
+
 Run measured(const Play& full, const Play& half, const Play& dmp2) {
   Run run;
   run.method = full.method;
@@ -70,7 +75,7 @@ Run measured(const Play& full, const Play& half, const Play& dmp2) {
   run.deviation_peak_rad = deviation_peak(full.recording, dmp2.recording);
   if (full.recording.in_task_space())
     run.deviation_peak_m = tool_deviation_peak(full.recording, dmp2.recording);
-  run.real_time_factor = full.dt * full.recording.ticks() / full.wall;
+  run.real_time_factor = simulated(full) / full.wall;
   return run;
 }
 

@@ -107,6 +107,7 @@ void bench(const Options& options) {
     print(comparison);
     seam::draw_figures(comparison, options.out);
   }
+  if (comparisons.size() > 1) fmt::print("{}\n", seam::overview(comparisons));
   fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n",
              options.out);
 }

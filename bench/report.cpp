@@ -70,6 +70,7 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
               comparison.scene.name + "`):\n\n" + table(comparison);
   }
   write_whole((results / "table.md").string(), tables);
+  write_whole((results / "overview.md").string(), overview(comparisons));
   write_whole((results / "summary.json").string(),
               summary(comparisons, seam_version).dump(2) + "\n");
 }
