@@ -159,12 +159,12 @@ std::string overview(const std::vector<Comparison>& comparisons) {
       const double share = dmp2 == comparison.runs.end()
                                ? std::numeric_limits<double>::quiet_NaN()
                                : 100.0 * run.metrics.torque_jump_nm / dmp2->metrics.torque_jump_nm;
-      rows.push_back({comparison.scene.name, std::string(to_string(run.method)), came_of(run),
-                      shown(run.metrics.torque_jump_nm, "{:.3g}"), shown(share, share < 10.0 ? "{:.2g}" : "{:.0f}"),
-                      shown(run.torque_jump_order, "{:.1f}"),
-                      shown(run.metrics.torque_rate_peak_nm_s, "{:.0f}"),
-                      shown(run.metrics.jerk_peak_rad_s3, "{:.0f}"),
-                      shown(run.deviation_peak_rad, "{:.3f}")});
+      rows.push_back(
+          {comparison.scene.name, std::string(to_string(run.method)), came_of(run),
+           shown(run.metrics.torque_jump_nm, "{:.3g}"),
+           shown(share, share < 10.0 ? "{:.2g}" : "{:.0f}"), shown(run.torque_jump_order, "{:.1f}"),
+           shown(run.metrics.torque_rate_peak_nm_s, "{:.0f}"),
+           shown(run.metrics.jerk_peak_rad_s3, "{:.0f}"), shown(run.deviation_peak_rad, "{:.3f}")});
     }
   }
   return markdown(rows, 3);

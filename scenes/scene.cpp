@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "plugin/files/src/sequence_entry.hpp"
+#include "scenes/contents.hpp"
 #include <seam/controller.hpp>
 #include <seam/error.hpp>
 
@@ -31,108 +32,6 @@ void read_robot(const YamlEntry& entry, Scene& scene) {
       position.fail(position.text() + ", must be in " + std::to_string(joint.lower) + " to " +
                     std::to_string(joint.upper));
   }
-}
-
-ToolSettings read_tool(const YamlEntry& entry, const Scene& scene) {
-  entry.only({"link", "offset", "turned", "orientation"});
-  ToolSettings tool;
-  const YamlEntry link = entry.at("link");
-  tool.link = link.text();
-  at_key(link, [&] { return scene.robot.frame(tool.link).body; });
-  if (const auto offset = entry.find("offset"))
-    tool.X_link_tool.translation() = offset->numbers(3, "direction");
-  if (const auto turned = entry.find("turned"))
-    tool.X_link_tool.linear() = turned->orientation().toRotationMatrix();
-  tool.orientation = Eigen::Quaterniond::Identity();
-  if (const auto orientation = entry.find("orientation"))
-    tool.orientation = orientation->orientation();
-  tool.posture.rest = scene.start;
-  return tool;
-}
-
-LiquidSettings read_liquid_settings(const YamlEntry& entry) {
-  LiquidSettings liquid;
-  const auto set = [&](const char* key, double& value) {
-    if (const auto given = entry.find(key)) value = given->not_negative();
-  };
-  set("radius", liquid.radius);
-  set("depth", liquid.depth);
-  set("rim", liquid.rim);
-  set("density", liquid.density);
-  set("viscosity", liquid.viscosity);
-  set("glass", liquid.glass);
-  return liquid;
-}
-
-// In a glass that the tool holds upright.
-void read_liquid(const YamlEntry& entry, Scene& scene) {
-  entry.only({"bottom", "radius", "depth", "rim", "density", "viscosity", "glass", "frozen"});
-  if (!scene.tool) entry.fail("needs a tool that holds it");
-  const LiquidSettings liquid = read_liquid_settings(entry);
-  const Eigen::Isometry3d X_link_glass =
-      scene.tool->X_link_tool * Eigen::Translation3d(entry.at("bottom").numbers(3, "direction"));
-  const auto still = entry.find("frozen");
-  at_key(entry, [&] {
-    const std::string& link = scene.tool->link;
-    add_frozen_liquid(scene.robot, link, X_link_glass, liquid);
-    if (still && still->choice({"no", "yes"}) == 1) {
-      scene.simulated = scene.robot;
-      return;
-    }
-    scene.liquid = liquid;
-    add_liquid(scene.simulated, link, X_link_glass, liquid);
-  });
-}
-
-VesselSettings read_vessel(const YamlEntry& entry, const char* where) {
-  entry.only({where, "radius", "height", "wall", "mass"});
-  VesselSettings vessel;
-  const auto set = [&](const char* key, double& value) {
-    if (const auto given = entry.find(key)) value = given->positive();
-  };
-  set("radius", vessel.radius);
-  set("height", vessel.height);
-  set("wall", vessel.wall);
-  set("mass", vessel.mass);
-  return vessel;
-}
-
-GrainSettings read_grains(const YamlEntry& entry) {
-  entry.only({"count", "radius", "mass", "friction", "restitution", "frozen"});
-  GrainSettings grains;
-  if (const auto count = entry.find("count")) grains.count = count->count(1);
-  if (const auto radius = entry.find("radius")) grains.radius = radius->positive();
-  if (const auto mass = entry.find("mass")) grains.mass = mass->positive();
-  if (const auto friction = entry.find("friction")) grains.friction = friction->not_negative();
-  if (const auto bounce = entry.find("restitution")) grains.restitution = bounce->not_negative();
-  return grains;
-}
-
-void read_pouring(const YamlEntry& entry, Scene& scene) {
-  entry.only({"bottle", "grains", "glass", "places"});
-  if (!scene.tool) entry.fail("needs a tool that holds the bottle");
-  Pouring pouring;
-  const YamlEntry bottle = entry.at("bottle");
-  const YamlEntry glass = entry.at("glass");
-  pouring.bottle = read_vessel(bottle, "bottom");
-  pouring.glass = read_vessel(glass, "at");
-  pouring.X_link_bottle =
-      scene.tool->X_link_tool * Eigen::Translation3d(bottle.at("bottom").numbers(3, "direction"));
-  pouring.glass_at = glass.at("at").numbers(3, "direction");
-  if (const auto grains = entry.find("grains")) pouring.grains = read_grains(*grains);
-  pouring.places = {Eigen::Vector3d::Zero()};
-  if (const auto places = entry.find("places"))
-    for (const YamlEntry& place : places->items())
-      pouring.places.emplace_back(place.numbers(3, "direction"));
-  const auto grains = entry.find("grains");
-  const auto still = grains ? grains->find("frozen") : std::nullopt;
-  const bool frozen = still && still->choice({"no", "yes"}) == 1;
-  if (frozen) pouring.bottle.mass += pouring.grains.count * pouring.grains.mass;
-  at_key(entry, [&] {
-    for (RobotModel* robot : {&scene.robot, &scene.simulated})
-      add_vessel(*robot, scene.tool->link, pouring.X_link_bottle, pouring.bottle);
-  });
-  if (!frozen) scene.pouring = std::move(pouring);
 }
 
 std::unique_ptr<JointReference> reference(const Scene& scene, const Primitive& primitive) {

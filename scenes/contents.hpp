@@ -1,0 +1,15 @@
+#pragma once
+
+#include "plugin/files/src/yaml_reader.hpp"
+#include "scenes/scene.hpp"
+
+namespace seam {
+
+/// The keys `tool`, `liquid` and `pouring` of a scene (see scenes/README.md). They fill in what the scene has of them, and
+/// give their masses and shapes to its robot.
+/// @throws Error  names file, line and key
+ToolSettings read_tool(const YamlEntry& entry, const Scene& scene);
+void read_liquid(const YamlEntry& entry, Scene& scene);
+void read_pouring(const YamlEntry& entry, Scene& scene);
+
+}  // namespace seam
