@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -76,6 +77,14 @@ TEST(Table, RefusesWhatIsNotAFile) {
   EXPECT_THAT(refusal([&] { Table::read(folder.path("none.csv")); }),
               EndsWith("No such file or directory"));
   EXPECT_THAT(refusal([&] { Table::read(folder.path("")); }), HasSubstr("is a folder"));
+}
+
+TEST(WriteWhole, WritesToADeviceAndLeavesItThere) {
+  write_whole("/dev/null", "text");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_THAT(test::refusal([] { write_whole("/dev/full", std::string(1 << 16, 'x')); }),
+              testing::HasSubstr("/dev/full: cannot be written: No space left"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
 TEST(WriteWhole, LeavesWhatWasThereWhenTheDiskIsFull) {

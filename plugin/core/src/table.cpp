@@ -137,13 +137,16 @@ void Table::write(const std::string& path) const {
 }
 
 void write_whole(const std::string& path, const std::string& content) {
-  const std::string part = path + ".part";
+  std::error_code ignored;
+  const bool in_place = std::filesystem::is_character_file(path, ignored) ||
+                        std::filesystem::is_fifo(path, ignored);
+  const std::string part = in_place ? path : path + ".part";
   std::ofstream file(part, std::ios::binary | std::ios::trunc);
   file << content;
   file.close();
-  if (file && std::rename(part.c_str(), path.c_str()) == 0) return;
+  if (file && (in_place || std::rename(part.c_str(), path.c_str()) == 0)) return;
   const std::string reason = std::strerror(errno);
-  std::remove(part.c_str());
+  if (!in_place) std::remove(part.c_str());
   throw Error(path, "cannot be written: " + reason);
 }
 

@@ -23,7 +23,8 @@ struct Table {
   void write(const std::string& path) const;
 };
 
-/// Writes a file so that it appears whole or not at all: beside its place first, then renamed.
+/// Writes a file so that it appears whole or not at all: beside its place first, then renamed. A device
+/// or a pipe (/dev/stdout) is written to as it is.
 /// @throws Error  cannot be written (names the reason, e.g. no space left on device)
 void write_whole(const std::string& path, const std::string& content);
 
