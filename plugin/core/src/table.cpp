@@ -138,8 +138,8 @@ void Table::write(const std::string& path) const {
 
 void write_whole(const std::string& path, const std::string& content) {
   std::error_code ignored;
-  const bool in_place = std::filesystem::is_character_file(path, ignored) ||
-                        std::filesystem::is_fifo(path, ignored);
+  const bool in_place =
+      std::filesystem::is_character_file(path, ignored) || std::filesystem::is_fifo(path, ignored);
   const std::string part = in_place ? path : path + ".part";
   std::ofstream file(part, std::ios::binary | std::ios::trunc);
   file << content;
