@@ -13,6 +13,8 @@ using Status = InverseKinematics::Status;
 
 const std::string pa10 = std::string(SEAM_ASSETS) + "/pa10/pa10.urdf";
 
+constexpr double straight = 0.45 + 0.50 + 0.08 + 0.16;  // [m] shoulder to tool
+
 struct Arm {
   RobotModel model = RobotModel::read(pa10);
   Kinematics kinematics{model, "tool"};
@@ -118,14 +120,59 @@ TEST(InverseKinematics, LosesWhatLeavesItsReachAndKeepsTheLastSolution) {
   ToolState target = on_path(0.0);
   Status status = Status::exact;
   Eigen::VectorXd last;
-  for (int k = 0; k < 1000 && status == Status::exact; ++k) {
+  for (int k = 0; k < 1000 && (status == Status::exact || status == Status::damped); ++k) {
     last = solution.position;
     target.pose.translation().x() += 1e-3;
     status = arm.inverse.follow(target, solution);
   }
-  EXPECT_NE(status, Status::exact);
+  EXPECT_EQ(status, Status::lost);
   EXPECT_EQ(solution.position, last);
   EXPECT_GT(target.pose.translation().x(), 0.9);
+}
+
+// Out to 1 mm short of where the arm is straight, and back, in 2 s.
+ToolState stretching(double t) {
+  const double w = M_PI;
+  ToolState state;
+  state.pose.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const double size = 0.5 * (straight - 1e-3 - 1.0);
+  state.pose.translation() = Eigen::Vector3d(1.0 + size * (1.0 - std::cos(w * t)), 0.0, 0.315);
+  state.velocity(0) = size * w * std::sin(w * t);
+  state.acceleration(0) = size * w * w * std::cos(w * t);
+  return state;
+}
+
+TEST(InverseKinematics, IsDampedNearASingularityAndSaysByHowMuchTheToolMisses) {
+  constexpr double dt = 1e-3;
+  Arm arm;
+  arm.inverse.reach(stretching(0.0).pose);
+  double farthest = 0.0;
+  int damped = 0;
+  JointSolution before, solution;
+  for (int k = 0; k <= 2000; ++k) {
+    const ToolState target = stretching(k * dt);
+    const Status status = arm.inverse.follow(target, solution);
+    ASSERT_TRUE(status == Status::exact || status == Status::damped) << k;
+    arm.kinematics.move_to(solution.position);
+    const double off =
+        (arm.kinematics.X_base_tool().translation() - target.pose.translation()).norm();
+    EXPECT_NEAR(solution.position_error, off, 1e-12);
+    if (status == Status::exact) {
+      EXPECT_LT(off, 2e-12);
+    }
+    farthest = std::max(farthest, off);
+    damped += status == Status::damped ? 1 : 0;
+    if (k > 0) {
+      const Eigen::VectorXd middle = 0.5 * (before.velocity + solution.velocity);
+      EXPECT_LT(((solution.position - before.position) / dt - middle).norm(), 2e-3) << k;
+      EXPECT_LT((solution.acceleration - before.acceleration).norm(), 1.0) << k;
+    }
+    before = solution;
+  }
+  EXPECT_GT(damped, 100);
+  EXPECT_LT(damped, 1500);
+  EXPECT_GT(farthest, 1e-4);
+  EXPECT_LT(farthest, 5e-3);
 }
 
 TEST(InverseKinematics, FollowsWithoutAllocating) {

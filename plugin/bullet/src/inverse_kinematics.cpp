@@ -17,6 +17,7 @@ constexpr double converged = 1e-13;    // [m, rad] and of the step
 constexpr double longest_step = 0.5;   // [rad or m]
 constexpr double good_enough = 1e-12;  // [m, rad]
 constexpr int starts = 60;
+constexpr double near = 1e-6;  // [rad or m] for differences
 
 Eigen::VectorXd filled(const Eigen::VectorXd& given, const Eigen::VectorXd& standard,
                        const std::string& name) {
@@ -37,7 +38,12 @@ double middle(const Joint& joint) {
 
 InverseKinematics::InverseKinematics(const RobotModel& model, Kinematics kinematics,
                                      const PostureSettings& posture)
-    : kinematics_(std::move(kinematics)), lower_(model.dof()), upper_(model.dof()) {
+    : kinematics_(std::move(kinematics)),
+      lower_(model.dof()),
+      upper_(model.dof()),
+      damped_below_(posture.damped_below),
+      damping_(posture.damping),
+      most_error_(posture.most_error) {
   const int n = model.dof();
   if (n > most) throw Error("robot", "more than " + std::to_string(most) + " joints");
   Eigen::VectorXd middles(n);
@@ -52,6 +58,11 @@ InverseKinematics::InverseKinematics(const RobotModel& model, Kinematics kinemat
   rest_ = filled(posture.rest, middles, "rest");
   weight_ = filled(posture.weight, Eigen::VectorXd::Ones(n), "weight");
   if (weight_.minCoeff() <= 0.0) throw Error("posture", "weight must be > 0");
+  for (const double value : {damped_below_, damping_, most_error_})
+    if (!(std::isfinite(value) && value >= 0.0))
+      throw Error("posture", "damping " + std::to_string(value) + ", must be >= 0");
+  softness_slope_.setZero(n);
+  nearby_.setZero(n);
   gradient_.setZero(n, n);
   system_.setZero(n + 6, n + 6);
   right_.setZero(n + 6);
@@ -68,14 +79,57 @@ Vector6d InverseKinematics::error(const Eigen::Isometry3d& target) const noexcep
   return e;
 }
 
+// λ² at other joint positions; leaves the kinematics there.
+double InverseKinematics::softness_at(const Eigen::VectorXd& q) noexcept {
+  kinematics_.move_to(q);
+  const Jacobian& J = kinematics_.jacobian();
+  const Eigen::Matrix<double, 6, 6> square = J * J.transpose();
+  const double w = std::sqrt(std::max(square.determinant(), 0.0));
+  const double short_of = 1.0 - w / damped_below_;
+  return short_of > 0.0 ? damping_ * short_of * short_of * short_of * short_of : 0.0;
+}
+
+// λ² and its slope at q_, by central differences.
+void InverseKinematics::soften() noexcept {
+  softness_slope_.setZero();
+  softness_ = damped_below_ > 0.0 ? softness_at(q_) : 0.0;
+  if (softness_ > 0.0) {
+    nearby_ = q_;
+    for (Eigen::Index i = 0; i < q_.size(); ++i) {
+      nearby_(i) = q_(i) + near;
+      const double above = softness_at(nearby_);
+      nearby_(i) = q_(i) - near;
+      softness_slope_(i) = (above - softness_at(nearby_)) / (2.0 * near);
+      nearby_(i) = q_(i);
+    }
+  }
+  kinematics_.move_to(q_);
+}
+
+// d²λ²/dt² while the joints move on at constant velocities.
+double InverseKinematics::softness_curvature(const Eigen::VectorXd& qd) noexcept {
+  const double speed = qd.norm();
+  if (softness_ == 0.0 || speed == 0.0) return 0.0;
+  const double h = 1e2 * near / speed;
+  nearby_ = q_ + h * qd;
+  const double after = softness_at(nearby_);
+  nearby_ = q_ - h * qd;
+  const double before = softness_at(nearby_);
+  return (after - 2.0 * softness_ + before) / (h * h);
+}
+
 // The matrix of both conditions' derivatives at q_, factored.
 void InverseKinematics::assemble() noexcept {
   const int n = dof();
+  soften();
   kinematics_.wrench_gradient(wrench_, gradient_);
   system_.topLeftCorner(n, n) = gradient_;
   system_.topLeftCorner(n, n).diagonal() += weight_;
   system_.topRightCorner(n, 6) = kinematics_.jacobian().transpose();
   system_.bottomLeftCorner(6, n) = kinematics_.jacobian();
+  system_.bottomLeftCorner(6, n).noalias() -= wrench_ * softness_slope_.transpose();
+  system_.bottomRightCorner<6, 6>().setZero();
+  system_.bottomRightCorner<6, 6>().diagonal().setConstant(-softness_);
   factors_.compute(system_);
 }
 
@@ -84,7 +138,7 @@ bool InverseKinematics::converge(const Eigen::Isometry3d& target) noexcept {
   for (int i = 0; i < most_iterations; ++i) {
     kinematics_.move_to(q_);
     assemble();
-    const Vector6d e = error(target);
+    const Vector6d e = error(target) - softness_ * wrench_;
     right_.head(n) = -weight_.cwiseProduct(q_ - rest_);
     right_.head(n).noalias() -= kinematics_.jacobian().transpose() * wrench_;
     right_.tail<6>() = -e;
@@ -126,14 +180,15 @@ InverseKinematics::Status InverseKinematics::follow(const ToolState& target,
   solution.position = q_;
   const Vector6d wrench_before = wrench_;
   const bool found = converge(target.pose);
-  if (!found || !within_limits()) {
-    q_ = solution.position;
-    wrench_ = wrench_before;
-    return found ? Status::beyond_limit : Status::lost;
-  }
-  solution.position = q_;
   kinematics_.move_to(q_);
   const Vector6d e = error(target.pose);
+  const bool near_enough = found && e.norm() <= most_error_;
+  if (!near_enough || !within_limits()) {
+    q_ = solution.position;
+    wrench_ = wrench_before;
+    return near_enough ? Status::beyond_limit : Status::lost;
+  }
+  solution.position = q_;
   solution.position_error = e.head<3>().norm();
   solution.angle_error = e.tail<3>().norm();
   assemble();
@@ -142,14 +197,17 @@ InverseKinematics::Status InverseKinematics::follow(const ToolState& target,
   step_.noalias() = factors_.solve(right_);
   solution.velocity = step_.head(n);
   const Vector6d wrench_rate = step_.tail<6>();
+  const double softness_rate = softness_slope_.dot(solution.velocity);
+  const double softness_curvature = this->softness_curvature(solution.velocity);
   kinematics_.move_along(q_, solution.velocity);
   right_.head(n).noalias() = -2.0 * kinematics_.jacobian_rate().transpose() * wrench_rate;
   right_.head(n).noalias() -= kinematics_.jacobian_curvature().transpose() * wrench_;
   right_.tail<6>() = target.acceleration;
   right_.tail<6>().noalias() -= kinematics_.jacobian_rate() * solution.velocity;
+  right_.tail<6>() += softness_curvature * wrench_ + 2.0 * softness_rate * wrench_rate;
   step_.noalias() = factors_.solve(right_);
   solution.acceleration = step_.head(n);
-  return Status::exact;
+  return softness_ > 0.0 ? Status::damped : Status::exact;
 }
 
 // Damped least squares towards the pose, within the limits; then along the poses that reach it towards the posture.

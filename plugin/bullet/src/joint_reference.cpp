@@ -132,7 +132,10 @@ bool TaskSpace::to_tool(const Sample& sample) noexcept {
 }
 
 bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
-  if (!to_tool(sample) || solver_.follow(target_, solution_) != InverseKinematics::Status::exact ||
+  using Status = InverseKinematics::Status;
+  if (!to_tool(sample)) return false;
+  const Status status = solver_.follow(target_, solution_);
+  if (!(status == Status::exact || status == Status::damped) ||
       !(solution_.velocity.cwiseAbs().maxCoeff() <= most_speed_))
     return false;
   joints.position = solution_.position;

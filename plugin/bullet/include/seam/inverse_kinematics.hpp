@@ -23,7 +23,10 @@ struct JointSolution {
 struct PostureSettings {
   Eigen::VectorXd
       rest;  // n, where the joints would like to be; empty: the middle of their limits, 0 without
-  Eigen::VectorXd weight;  // n, > 0, how much; empty: 1 each
+  Eigen::VectorXd weight;      // n, > 0, how much; empty: 1 each
+  double damped_below = 0.02;  // w₀, 0: no damping. In m³ and rad³; a PA-10 in mid-reach has 0.1
+  double damping = 3e-4;       // λ₀² [m², rad²]
+  double most_error = 5e-3;    // [m, rad] by which the tool may be off
 };
 
 /// Inverse kinematics of a redundant arm that does not depend on the path: of all joint positions that put the tool where
@@ -35,13 +38,20 @@ struct PostureSettings {
 /// rank, and serve arms without redundancy too. Velocity and acceleration come from differentiating both conditions, and
 /// so are exact and as continuous as the tool's.
 ///
+/// Near a singularity, where w = √det JJᵀ falls below w₀, the tool may miss its pose a little so that the joints need not
+/// move at will: the second condition becomes e(q) = λ²(w)μ, which minimises |e|²/2λ² beside the posture's cost, with
+///     λ²(w) = λ₀²·(1 − w/w₀)⁴
+/// so that positions, velocities and accelerations stay continuous where it sets in. The solution says by how much the
+/// tool misses. Velocities and accelerations are then exact but for terms of the order of that angle.
+///
 /// Construction allocates; `follow` does not, and does not throw.
 class InverseKinematics {
  public:
   enum class Status {
     exact,         ///< the tool is where it should be, to 1e-12
+    damped,        ///< near a singularity: it is not quite there, see the solution's errors
     beyond_limit,  ///< it would be, with a joint beyond its limits
-    lost,          ///< no solution near the one before: out of reach, or at a singularity
+    lost,  ///< no solution near the one before: out of reach, or further off than `most_error`
   };
 
   /// @throws Error  the settings do not fit the robot, or it has fewer than six joints that move the tool
@@ -57,7 +67,7 @@ class InverseKinematics {
 
   /// Goes on from joint positions that put the tool near its next pose.
   void start(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept;
-  /// The joints for the tool's next state. Unless `exact` the solution is left as it was.
+  /// The joints for the tool's next state. Unless `exact` or `damped` the solution is left as it was.
   Status follow(const ToolState& target, JointSolution& solution) noexcept;
 
  private:
@@ -69,13 +79,20 @@ class InverseKinematics {
   bool converge(const Eigen::Isometry3d& target) noexcept;
   bool within_limits() const noexcept;
   void assemble() noexcept;
+  double softness_at(const Eigen::VectorXd& q) noexcept;
+  void soften() noexcept;
+  double softness_curvature(const Eigen::VectorXd& qd) noexcept;
   void estimate_wrench() noexcept;
   bool approach(const Eigen::Isometry3d& target);
   double posture_cost() const noexcept;
 
   Kinematics kinematics_;
   Eigen::VectorXd rest_, weight_, lower_, upper_;
+  double damped_below_, damping_, most_error_;
   Eigen::VectorXd q_;
+  double softness_ = 0.0;           // λ² at q_
+  Eigen::VectorXd softness_slope_;  // ∂λ²/∂q
+  Eigen::VectorXd nearby_;
   Vector6d wrench_ = Vector6d::Zero();
   Eigen::MatrixXd gradient_;
   System system_;

@@ -65,7 +65,8 @@ struct ToolSettings {
 
 /// The coordinates are a tool's: x y z [m] in the frame of the robot's root link, and rx ry rz, the rotation vector about
 /// the sequence's reference orientation (see orientation.hpp). Without the latter three the tool keeps
-/// the orientation of its settings. Joints follow from InverseKinematics, exact in velocity and acceleration too.
+/// the orientation of its settings. Joints follow from InverseKinematics, exact in
+/// velocity and acceleration too; near a singularity the tool may be off by millimetres, which ToolError says.
 class TaskSpace final : public JointReference {
  public:
   /// @param q  joint positions at the beginning
