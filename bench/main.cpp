@@ -79,6 +79,13 @@ std::vector<seam::Join> read_methods(const std::vector<std::string>& names) {
   return methods;
 }
 
+std::string own_method(const std::string& scene) {
+  const auto method = seam::Scene::read(scene_file(scene)).method;
+  if (!method)
+    throw seam::Error(scene, "has no key \"method\", needs --method dmp2, dmp2a, dmp3 or dmp2j");
+  return std::string(seam::to_string(*method));
+}
+
 void show_progress(int done, int total, const std::string& what) {
   if (!isatty(STDERR_FILENO)) return;
   fmt::print(stderr, "\r\033[K{}/{} {}{}", done, total, what, done == total ? "\r\033[K" : "");
@@ -148,8 +155,9 @@ int run(int argc, char** argv) {
   single.add_option("scene", options.scenes, "scene file, or name of one of seam's own")
       ->required()
       ->expected(1);
-  single.add_option("--method", options.methods, "joining method: dmp2, dmp2a, dmp3, dmp2j")
-      ->required()
+  single
+      .add_option("--method", options.methods,
+                  "joining method: dmp2, dmp2a, dmp3, dmp2j (default: the scene's)")
       ->expected(1);
   add_common(single, options);
 
@@ -158,6 +166,8 @@ int run(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
+    if (single.parsed() && options.methods.empty())
+      options.methods = {own_method(options.scenes[0])};
     if (compare.parsed() || single.parsed()) bench(options);
     if (std::fflush(stdout) != 0) throw seam::Error("standard output", "cannot be written");
     return 0;

@@ -78,6 +78,19 @@ ControlSettings read_control(const YamlEntry& entry) {
   return control;
 }
 
+ActuatorSettings read_actuator(const YamlEntry& entry) {
+  ActuatorSettings actuator;
+  if (entry.is_text()) {
+    entry.choice({"ideal"});
+    return actuator;
+  }
+  entry.only({"effort_limit", "lag"});
+  if (const auto limit = entry.find("effort_limit"))
+    actuator.limit_effort = limit->choice({"no", "yes"}) == 1;
+  if (const auto lag = entry.find("lag")) actuator.lag = lag->not_negative();
+  return actuator;
+}
+
 double at_most(const YamlEntry& entry, double seconds) {
   if (seconds > most_seconds) entry.fail(entry.text() + ", must be <= 3600 s");
   return seconds;
@@ -123,6 +136,12 @@ Sequence Scene::sequence_at(std::size_t place) const {
   });
 }
 
+ControllerSettings Scene::controller() const {
+  ControllerSettings settings(control, tool, robot);
+  settings.actuator = actuator;
+  return settings;
+}
+
 void Scene::hasten(double factor) {
   if (!(std::isfinite(factor) && factor > 0.0))
     throw Error(name, "speed " + std::to_string(factor) + ", must be > 0");
@@ -149,7 +168,7 @@ Scene Scene::read(const std::string& path) {
   const YamlEntry root = YamlEntry::read(path);
   root.require_format("seam-scene", 1);
   root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events",
-             "control", "seed", "dt", "settle", "duration", "figure"});
+             "control", "actuator", "method", "seed", "dt", "settle", "duration", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -162,6 +181,9 @@ Scene Scene::read(const std::string& path) {
   read_steps(root.at("sequence"), scene);
   if (tool) start_with_tool(*tool, scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);
+  if (const auto actuator = root.find("actuator")) scene.actuator = read_actuator(*actuator);
+  if (const auto method = root.find("method"))
+    scene.method = at_key(*method, [&] { return join_from_name(method->text()); });
   if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt, scene.control);
   if (const auto seed = root.find("seed")) scene.seed = seed->count(0);
   if (const auto events = root.find("events"))

@@ -41,9 +41,11 @@ struct Scene {
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
   ControlSettings control;
-  double dt = 1e-3;       // [s] Bullet's tick
-  double duration = 0.0;  // [s] of a run
-  int seed = 0;           // of whatever is drawn by chance
+  ActuatorSettings actuator;
+  std::optional<Join> method;  // with which `seam run` plays it unless told otherwise
+  double dt = 1e-3;            // [s] Bullet's tick
+  double duration = 0.0;       // [s] of a run
+  int seed = 0;                // of whatever is drawn by chance
   std::vector<Event> events;
   std::string figure;  // the joint, or the tool's coordinate, that the figure shows
 
@@ -54,7 +56,7 @@ struct Scene {
   /// Plays all of it faster by a factor > 0: every time is divided by it, tau's and events' included.
   /// @throws Error  not finite and > 0, or a tau out of its bounds then
   void hasten(double factor);
-  ControllerSettings controller() const { return {control, tool, robot}; }
+  ControllerSettings controller() const;
 
   /// Reads a scene file (the format is explained in scenes/README.md).
   /// @throws Error  names file, line and key

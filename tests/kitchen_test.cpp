@@ -139,6 +139,19 @@ TEST(Pouring, GivesTheSameBitsTwice) {
             0);
 }
 
+// A lag leaves the arm behind; an effort limit far above what is needed does nothing.
+TEST(Scene, HasTheActuatorThatItNames) {
+  const auto tracking = [](const char* actuator) {
+    const Scene with = scene_with("catching", "seed: 1",
+                                  "method: dmp2a\nseed: 1\nactuator: " + std::string(actuator));
+    EXPECT_EQ(with.method, Join::dmp2a);
+    return measure(play(with, Join::dmp3, with.dt)).tool_tracking_max_m;
+  };
+  EXPECT_LT(tracking("ideal"), 1e-9);
+  EXPECT_LT(tracking("{effort_limit: yes}"), 1e-9);
+  EXPECT_GT(tracking("{lag: 0.002}"), 1e-5);
+}
+
 // Twice as fast a sequence is at the same place at half the time.
 TEST(Scene, HastenedIsOnTheSamePath) {
   const Scene slow = scene_with("carrying", "liquid:", "seed: 3\nliquid:");
@@ -203,6 +216,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "key \"to\": 0.1, must be >= from"},
         BadScene{"CameraOfTooManyPictures", "catching", "every: 0.033333", "every: 1e-9",
                  "key \"every\": gives more than 1e5 events"},
+        BadScene{"UnknownActuator", "catching", "seed: 1", "actuator: strong",
+                 "key \"actuator\": \"strong\", must be ideal"},
+        BadScene{"UnknownMethod", "catching", "seed: 1", "method: dmp9",
+                 "key \"method\": method \"dmp9\": not known"},
         BadScene{"TooManyGrains", "pouring", "count: 32", "count: 0",
                  "key \"count\": \"0\", must be a whole number >= 1"},
         BadScene{"PlaceOfTwoNumbers", "pouring", "[0.04, 0, 0]", "[0.04, 0]", "key \"places\""},

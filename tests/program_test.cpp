@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"UnknownCommand", "dance", "subcommand is required"},
         BadCall{"UnknownScene", "run nowhere --method dmp2", "nowhere.yaml: cannot be read"},
         BadCall{"UnknownMethod", "run line --method dmp9", "must be one of dmp2, dmp2a, dmp3"},
-        BadCall{"NoMethod", "run line", "--method is required"},
+        BadCall{"NoMethod", "run line", "line: has no key \"method\", needs --method"},
         BadCall{"NegativeTick", "bench line --dt -1", "--dt"},
         BadCall{"NoJobs", "bench line --jobs 0", "--jobs"},
         BadCall{"TickThatIsNotANumber", "bench line --dt nan", "--dt: nan"},

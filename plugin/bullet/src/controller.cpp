@@ -84,6 +84,7 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
       brake_(rest_at(tick_.q)),
       coming_to_rest_(tick_.q),
       law_(InverseDynamics(known(robot, settings)), valid(settings.law)),
+      actuator_(known(robot, settings), settings.actuator),
       next_(tick_.reference) {
   tick_.sequence = sequencer_.sample();
   joints_->find(tick_.sequence, tick_.reference);
@@ -112,7 +113,7 @@ void Controller::pre_tick(double dt) noexcept {
   }
   law_.set_gravity(robot_.gravity_in_base());
   law_.torque(dt, tick_.q, tick_.qd, tick_.reference, next_.position, tick_.torque);
-  apply_torque();
+  apply_torque(actuator_.deliver(dt, tick_.torque));
 }
 
 void Controller::measure() noexcept {
@@ -133,16 +134,16 @@ void Controller::follow(Sample& joints) noexcept {
 // Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base
 // multibody bears a torque that moves nothing and is cleared with them: if it is still what we left,
 // our joint torques still stand too.
-void Controller::apply_torque() noexcept {
+void Controller::apply_torque(const Eigen::VectorXd& torque) noexcept {
   btMultiBody& multibody = robot_.multibody();
   const bool still_stands = marked_ && multibody.getBaseTorque().x() == base_torque_;
   if (still_stands)
-    applied_ = tick_.torque - applied_;
+    applied_ = torque - applied_;
   else
-    applied_ = tick_.torque;
+    applied_ = torque;
   for (int i = 0; i < applied_.size(); ++i) multibody.addJointTorque(i, applied_(i));
   if (!still_stands) multibody.addBaseTorque(btVector3(mark, 0.0, 0.0));
-  applied_ = tick_.torque;
+  applied_ = torque;
   base_torque_ = multibody.getBaseTorque().x();
   marked_ = true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 // seam on a robot in a Bullet world.
+#include <seam/actuator.hpp>
 #include <seam/computed_torque.hpp>
 #include <seam/controller.hpp>
 #include <seam/inverse_dynamics.hpp>

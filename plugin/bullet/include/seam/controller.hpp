@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/actuator.hpp>
 #include <seam/computed_torque.hpp>
 #include <seam/joint_reference.hpp>
 #include <seam/robot.hpp>
@@ -22,6 +23,7 @@ struct ControllerSettings {
   /// What the controller takes the robot for: a model that errs, or one without the passive joints that the robot in
   /// Bullet has behind all others. Else the robot's own.
   std::optional<RobotModel> model;
+  ActuatorSettings actuator;
 
   ControllerSettings() = default;
   ControllerSettings(const ControlSettings& control, std::optional<ToolSettings> of = std::nullopt,
@@ -47,7 +49,7 @@ class Controller {
   };
 
   /// The work of one tick: the state and reference at its beginning, and the torque commanded for
-  /// it.
+  /// it (what the actuator delivers is another where it is not ideal).
   struct Tick {
     double time = 0.0;       // [s] since the controller was made
     int running = -1;        // index of the running primitive, -1 before the first
@@ -83,7 +85,7 @@ class Controller {
 
   void measure() noexcept;
   void follow(Sample& joints) noexcept;
-  void apply_torque() noexcept;
+  void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
   Robot& robot_;
   Eigen::VectorXd q_, qd_;  // of the robot with its passive joints
@@ -93,6 +95,7 @@ class Controller {
   Execution brake_;                 // n joints; leads to rest
   Eigen::VectorXd coming_to_rest_;  // n
   ComputedTorque law_;
+  Actuator actuator_;
   Sample next_;  // n, reference at the end of the tick
   Status status_ = Status::following;
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
