@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"CameraOfTooManyPictures", "catching", "every: 0.033333", "every: 1e-9",
                  "key \"every\": gives more than 1e5 events"},
         BadScene{"UnknownActuator", "catching", "seed: 1", "actuator: strong",
-                 "key \"actuator\": \"strong\", must be ideal"},
+                 "key \"actuator\": \"strong\", must be one of ideal"},
         BadScene{"UnknownMethod", "catching", "seed: 1", "method: dmp9",
                  "key \"method\": method \"dmp9\": not known"},
         BadScene{"TooManyGrains", "pouring", "count: 32", "count: 0",
