@@ -89,13 +89,13 @@ std::vector<Join> with_dmp2(std::vector<Join> methods) {
 }  // namespace
 
 std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
-                                double dt, int jobs, const Progress& progress) {
+                                int jobs, const Progress& progress) {
   const std::vector<Join> played = with_dmp2(methods);
   std::vector<Play> plays;
   for (const Scene& scene : scenes)
     for (const Join method : played)
       for (const double share : {1.0, 0.5})
-        plays.push_back({&scene, method, share * (dt > 0.0 ? dt : scene.dt), {}, 0.0});
+        plays.push_back({&scene, method, share * scene.dt, {}, 0.0});
   perform_all(plays, jobs, progress);
 
   const auto play_of = [&](const Scene& scene, Join method) {
@@ -106,7 +106,7 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
   std::vector<Comparison> comparisons;
   for (const Scene& scene : scenes) {
     const auto dmp2 = play_of(scene, Join::dmp2);
-    Comparison comparison{scene, dmp2->dt, {}};
+    Comparison comparison{scene, {}};
     for (const Join method : methods) {
       const auto full = play_of(scene, method);
       comparison.runs.push_back(measured(*full, *(full + 1), *dmp2));

@@ -27,19 +27,17 @@ struct Run {
 /// One scene played with several methods.
 struct Comparison {
   Scene scene;
-  double dt = 0.0;  // [s]
   std::vector<Run> runs;
 };
 
 /// Called after each of the `total` plays has ended, from one thread at a time.
 using Progress = std::function<void(int done, int total, const std::string& what)>;
 
-/// Plays every scene with every method at dt and at dt/2 (for the order of the torque jump), on
+/// Plays every scene with every method at its dt and at dt/2 (for the order of the torque jump), on
 /// several threads; the results do not depend on how many.
-/// @param dt    [s]; 0: each scene's own
 /// @param jobs  threads, ≥ 1
 /// @throws Error  see play
 std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
-                                double dt, int jobs, const Progress& progress);
+                                int jobs, const Progress& progress);
 
 }  // namespace seam

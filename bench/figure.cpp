@@ -52,7 +52,7 @@ void write_primitives(const Comparison& comparison, const std::string& folder) {
       return join.primitive == static_cast<int>(i);
     });
     const double begin = begun == joins.end() ? 0.0 : begun->time;
-    alone(steps[i].primitive, begin, comparison.dt).write(folder + "/" + file_of(i));
+    alone(steps[i].primitive, begin, comparison.scene.dt).write(folder + "/" + file_of(i));
   }
 }
 
@@ -149,7 +149,7 @@ std::string torque_script(const Comparison& comparison) {
   const Recording& recording = comparison.runs.front().recording;
   const int every = std::max(1, recording.ticks() / curve_points);
   const double join = recording.joins.back().time;
-  const double reach = 20e3 * comparison.dt;  // [ms]
+  const double reach = 20e3 * comparison.scene.dt;  // [ms]
   const std::string column = "torque." + joint;
   std::string text = preamble(comparison, 1200, 520);
   text += "set multiplot layout 1,2\nset xlabel 'time [s]'\nunset key\nset tmargin 3\n";

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -21,8 +22,9 @@ namespace {
 struct Options {
   std::vector<std::string> scenes;
   std::vector<std::string> methods;
-  double dt = 0.0;  // [s] 0: the scene's own
-  std::vector<double> speeds{1.0};
+  std::optional<double> dt;  // [s]
+  std::vector<double> speeds;
+  std::vector<std::string> overrides;
   bool list = false;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::string out = "results";
@@ -43,32 +45,32 @@ std::vector<std::string> own_scenes() {
   return files;
 }
 
-std::vector<seam::Scene> read_scenes(const std::vector<std::string>& names) {
+// What is set anew in each scene, at each speed.
+std::vector<std::vector<std::string>> overrides_of(const Options& options) {
+  std::vector<std::string> all = options.overrides;
+  if (options.dt) all.push_back(fmt::format("dt={}", *options.dt));
+  if (options.speeds.empty()) return {all};
+  std::vector<std::vector<std::string>> each(options.speeds.size(), all);
+  for (std::size_t i = 0; i < each.size(); ++i)
+    each[i].push_back(fmt::format("speed={}", options.speeds[i]));
+  return each;
+}
+
+std::vector<seam::Scene> read_scenes(const Options& options) {
   std::vector<seam::Scene> scenes;
   std::set<std::string> seen;
-  for (const std::string& name : names.empty() ? own_scenes() : names) {
-    scenes.push_back(seam::Scene::read(scene_file(name)));
-    if (!seen.insert(scenes.back().name).second)
-      throw seam::Error("scene \"" + scenes.back().name + "\"", "given twice");
-  }
+  for (const std::string& name : options.scenes.empty() ? own_scenes() : options.scenes)
+    for (const auto& overrides : overrides_of(options)) {
+      seam::Scene& scene = scenes.emplace_back(seam::Scene::read(scene_file(name), overrides));
+      if (scene.speed != 1.0) scene.name += fmt::format("-{:g}x", scene.speed);
+      if (!seen.insert(scene.name).second)
+        throw seam::Error("scene \"" + scene.name + "\"", "given twice");
+    }
   return scenes;
 }
 
-// Each scene at each speed.
-std::vector<seam::Scene> at_speeds(const std::vector<seam::Scene>& scenes,
-                                   const std::vector<double>& speeds) {
-  std::vector<seam::Scene> played;
-  for (const seam::Scene& scene : scenes)
-    for (const double speed : speeds) {
-      played.push_back(scene);
-      played.back().hasten(speed);
-      if (speed != 1.0) played.back().name += fmt::format("-{:g}x", speed);
-    }
-  return played;
-}
-
-void list_scenes(const std::vector<std::string>& names) {
-  for (const seam::Scene& scene : read_scenes(names))
+void list_scenes(const Options& options) {
+  for (const seam::Scene& scene : read_scenes(options))
     fmt::print("{:10}  {}\n", scene.name, scene.title);
 }
 
@@ -94,7 +96,7 @@ void show_progress(int done, int total, const std::string& what) {
 
 void print(const seam::Comparison& comparison) {
   fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title,
-             comparison.dt * 1e3, seam::table(comparison));
+             comparison.scene.dt * 1e3, seam::table(comparison));
   fmt::print("played at");
   for (const seam::Run& run : comparison.runs)
     fmt::print(" {} {:.0f}x{}", seam::to_string(run.method), run.real_time_factor,
@@ -103,12 +105,10 @@ void print(const seam::Comparison& comparison) {
 
 void bench(const Options& options) {
   if (options.out.empty()) throw seam::Error("--out", "is empty, must be a folder");
-  if (std::isnan(options.dt)) throw seam::Error("--dt", "nan, must be a time [s]");
-  if (options.list) return list_scenes(options.scenes);
+  if (options.list) return list_scenes(options);
   seam::require_gnuplot();
-  const auto comparisons =
-      seam::compare(at_speeds(read_scenes(options.scenes), options.speeds),
-                    read_methods(options.methods), options.dt, options.jobs, show_progress);
+  const auto comparisons = seam::compare(read_scenes(options), read_methods(options.methods),
+                                         options.jobs, show_progress);
   seam::write_results(comparisons, SEAM_VERSION, options.out);
   for (const seam::Comparison& comparison : comparisons) {
     print(comparison);
@@ -128,6 +128,11 @@ void add_common(CLI::App& command, Options& options) {
       ->allow_extra_args(false)
       ->delimiter(',')
       ->check(CLI::Number & CLI::Range(1e-3, 1e3));
+  command
+      .add_option("--set", options.overrides,
+                  "key=value: an entry of the scene file set anew, e.g. actuator.lag=0.002 or "
+                  "sequence.steps.0.until={after: 0.6}; may be repeated")
+      ->allow_extra_args(false);
   command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

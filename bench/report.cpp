@@ -39,7 +39,7 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
       for (const Column& column : columns(comparison)) metrics[column.name] = column.of(run);
       runs.push_back({{"scene", comparison.scene.name},
                       {"method", to_string(run.method)},
-                      {"dt", comparison.dt},
+                      {"dt", comparison.scene.dt},
                       {"seed", comparison.scene.seed},
                       {"joins", joins_of(run)},
                       {"metrics", metrics}});

@@ -127,6 +127,25 @@ Sequence changed(const Sequence& from, double start_delay,
   return to;
 }
 
+// Plays all of it faster by a factor: every time is divided by it, tau's and events' included.
+void hasten(double factor, Scene& scene) {
+  scene.speed = factor;
+  const Sequence& slow = scene.sequence;
+  scene.sequence = changed(slow, slow.start_delay() / factor, [&](Sequence::Step& step) {
+    step.primitive.tau /= factor;
+    step.primitive.start_velocity *= factor;
+    step.primitive.start_acceleration *= factor * factor;
+    const auto when = step.until.when;
+    if (when == Switch::When::after || when == Switch::When::before_end) step.until.value /= factor;
+  });
+  for (Event& event : scene.events) {
+    event.at /= factor;
+    event.over /= factor;
+    if (event.what == Event::What::tau) event.value /= factor;
+  }
+  scene.duration /= factor;
+}
+
 }  // namespace
 
 Sequence Scene::sequence_at(std::size_t place) const {
@@ -142,33 +161,16 @@ ControllerSettings Scene::controller() const {
   return settings;
 }
 
-void Scene::hasten(double factor) {
-  if (!(std::isfinite(factor) && factor > 0.0))
-    throw Error(name, "speed " + std::to_string(factor) + ", must be > 0");
-  sequence = changed(sequence, sequence.start_delay() / factor, [&](Sequence::Step& step) {
-    step.primitive.tau /= factor;
-    step.primitive.start_velocity *= factor;
-    step.primitive.start_acceleration *= factor * factor;
-    const auto when = step.until.when;
-    if (when == Switch::When::after || when == Switch::When::before_end) step.until.value /= factor;
-  });
-  for (Event& event : events) {
-    event.at /= factor;
-    event.over /= factor;
-    if (event.what == Event::What::tau) event.value /= factor;
-  }
-  duration /= factor;
-}
-
 int Scene::ticks(double step) const {
   return static_cast<int>(std::lround(duration / step));
 }
 
-Scene Scene::read(const std::string& path) {
-  const YamlEntry root = YamlEntry::read(path);
+Scene Scene::read(const std::string& path, const std::vector<std::string>& overrides) {
+  const YamlEntry root = YamlEntry::read(path, overrides);
   root.require_format("seam-scene", 1);
   root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events",
-             "control", "actuator", "method", "seed", "dt", "settle", "duration", "figure"});
+             "control", "actuator", "method", "seed", "dt", "settle", "duration", "speed",
+             "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -189,6 +191,8 @@ Scene Scene::read(const std::string& path) {
   if (const auto events = root.find("events"))
     scene.events = read_events(*events, scene.sequence.coordinates(), scene.seed);
   scene.duration = read_duration(root, scene.sequence);
+  if (const auto speed = root.find("speed"))
+    at_key(*speed, [&] { hasten(speed->positive(), scene); });
   const YamlEntry figure = root.at("figure");
   scene.figure = figure.text();
   const auto& moved = scene.sequence.coordinates();

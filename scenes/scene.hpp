@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -45,6 +46,7 @@ struct Scene {
   std::optional<Join> method;  // with which `seam run` plays it unless told otherwise
   double dt = 1e-3;            // [s] Bullet's tick
   double duration = 0.0;       // [s] of a run
+  double speed = 1.0;          // factor by which all of it is faster than its file's times say
   int seed = 0;                // of whatever is drawn by chance
   std::vector<Event> events;
   std::string figure;  // the joint, or the tool's coordinate, that the figure shows
@@ -53,14 +55,12 @@ struct Scene {
   std::size_t places() const { return pouring ? pouring->places.size() : 1; }
   /// The sequence for a place of the glass: all goals are moved, the weights are those learned.
   Sequence sequence_at(std::size_t place) const;
-  /// Plays all of it faster by a factor > 0: every time is divided by it, tau's and events' included.
-  /// @throws Error  not finite and > 0, or a tau out of its bounds then
-  void hasten(double factor);
   ControllerSettings controller() const;
 
-  /// Reads a scene file (the format is explained in scenes/README.md).
+  /// Reads a scene file (the format is explained in scenes/README.md), in which some entries are set anew: see
+  /// YamlEntry::read.
   /// @throws Error  names file, line and key
-  static Scene read(const std::string& path);
+  static Scene read(const std::string& path, const std::vector<std::string>& overrides = {});
 };
 
 }  // namespace seam

@@ -20,7 +20,7 @@ const std::string line = std::string(SEAM_SCENES) + "/line.yaml";
 std::vector<seam::Run> compared(const std::string& path, int jobs) {
   const std::vector<Join> methods(all_joins.begin(), all_joins.end());
   const auto quiet = [](int, int, const std::string&) {};
-  return compare({Scene::read(path)}, methods, 0.0, jobs, quiet).front().runs;
+  return compare({Scene::read(path)}, methods, jobs, quiet).front().runs;
 }
 
 bool same_bits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -164,6 +164,54 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"NotYaml", "primitives:", "primitives: {", ":13: not YAML: "},
         BadFile{"AList", "sequence:\n", "sequence: [1]\nsettings:\n",
                 ":10: key \"settings\": not known here"}),
+    test::by_name);
+
+TEST(Scene, IsReadWithSomeEntriesSetAnew) {
+  const auto with = [](const std::vector<std::string>& overrides) {
+    return Scene::read(line, overrides);
+  };
+  EXPECT_EQ(with({"dt=0.002"}).dt, 0.002);
+  EXPECT_EQ(with({"title=Other", "title=Last"}).title, "Last");
+  EXPECT_EQ(with({"robot.start.S1=0.25"}).start(0), 0.25);
+  const Switch until = with({"sequence.steps.0.until={after: 0.5}"}).sequence.steps()[0].until;
+  EXPECT_EQ(until.when, Switch::When::after);
+  EXPECT_EQ(until.value, 0.5);
+  EXPECT_EQ(with({"actuator.lag=0.002"}).actuator.lag, 0.002);
+  const Scene fast = with({"speed=2"});
+  EXPECT_EQ(fast.speed, 2.0);
+  EXPECT_EQ(2.0 * fast.duration, with({}).duration);
+  EXPECT_EQ(2.0 * fast.sequence.steps()[1].primitive.tau,
+            with({}).sequence.steps()[1].primitive.tau);
+}
+
+struct BadOverride {
+  const char* name;
+  const char* text;
+  const char* message;
+};
+
+class OverrideRefuses : public testing::TestWithParam<BadOverride> {};
+
+TEST_P(OverrideRefuses, WithWhatIsWrong) {
+  EXPECT_THAT(test::refusal([] { Scene::read(line, {GetParam().text}); }),
+              HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , OverrideRefuses,
+    testing::Values(
+        BadOverride{"NoValue", "dt", "dt: must be key=value"},
+        BadOverride{"NoKey", "=1", "=1: must be key=value"},
+        BadOverride{"EmptyPart", "robot..urdf=1", "robot..urdf=1: must be key=value"},
+        BadOverride{"UnknownKey", "actuatr.lag=1", "line.yaml: key \"actuatr\": not known here"},
+        BadOverride{"BadValue", "dt=-1", "line.yaml:18: key \"dt\": -1, must be > 0"},
+        BadOverride{"NotANumber", "dt=nan", "key \"dt\": \"nan\", must be a finite number"},
+        BadOverride{"NotYaml", "dt={", "dt={: the value is not YAML"},
+        BadOverride{"ThroughAValue", "dt.x=1", "\"x\" is an entry of \"0.001\""},
+        BadOverride{"BeyondTheList", "sequence.steps.2.play=up", "\"2\" is none of the list's"},
+        BadOverride{"NoIndex", "sequence.steps.one.play=up", "must be 0 to 1"},
+        BadOverride{"NoTime", "speed=0", "key \"speed\": 0, must be > 0"},
+        BadOverride{"NoTimeAtAll", "speed=1e12", "key \"speed\": "}),
     test::by_name);
 
 TEST(Scene, RefusesWhatIsNotAFile) {

@@ -71,18 +71,49 @@ YAML::Node only_document(const std::string& path, const std::string& text) {
   return YAML::Load(text);
 }
 
+// The entry of a list or map; a new one where a map, or nothing, has none.
+YAML::Node entry_of(YAML::Node node, const std::string& key, const std::string& change) {
+  const bool is_number = !key.empty() && key.find_first_not_of("0123456789") == std::string::npos;
+  if (node.IsSequence()) {
+    if (!is_number || key.size() > 9 || std::stoul(key) >= node.size())
+      throw Error(change, "\"" + key + "\" is none of the list's entries, must be 0 to " +
+                              std::to_string(node.size() - 1));
+    return node[std::stoul(key)];
+  }
+  if (node.IsScalar())
+    throw Error(change, "\"" + key + "\" is an entry of \"" + node.Scalar() +
+                            "\", which is a value and has none");
+  return node[key];
+}
+
+// Sets `key=value` in a document.
+void set(YAML::Node node, const std::string& change) {
+  const std::size_t equals = change.find('=');
+  const std::string path = change.substr(0, equals);
+  if (equals == std::string::npos || ("." + path + ".").find("..") != std::string::npos)
+    throw Error(change, "must be key=value, as in actuator.lag=0.002");
+  std::istringstream keys(path);
+  for (std::string key; std::getline(keys, key, '.');) node.reset(entry_of(node, key, change));
+  try {
+    node = YAML::Load(change.substr(equals + 1));
+  } catch (const YAML::Exception& error) {
+    throw Error(change, one_line("the value is not YAML: " + error.msg));
+  }
+}
+
 }  // namespace
 
 YamlEntry::YamlEntry(YAML::Node node, std::string file, std::string key, int line)
     : node_(std::move(node)), file_(std::move(file)), key_(std::move(key)), line_(line) {}
 
-YamlEntry YamlEntry::read(const std::string& path) {
+YamlEntry YamlEntry::read(const std::string& path, const std::vector<std::string>& overrides) {
   if (std::filesystem::is_directory(path)) throw Error(path, "is a folder, must be a YAML file");
   std::ifstream file(path);
   if (!file) throw Error(path, "cannot be read");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   try {
     const YAML::Node root = only_document(path, text);
+    for (const std::string& change : overrides) set(root, change);
     return {root, path, "", root.Mark().line};
   } catch (const YAML::Exception& error) {
     throw Error(path + ":" + std::to_string(error.mark.line + 1),

@@ -18,9 +18,12 @@ namespace seam {
 /// wrong with it is refused as `line.yaml:12: key "dt": "fast", must be a number > 0`.
 class YamlEntry {
  public:
-  /// The root of a file.
-  /// @throws Error  cannot be read, is not YAML (names the line), or goes on behind its first document
-  static YamlEntry read(const std::string& path);
+  /// The root of a file, in which some entries are set anew: `key=value` texts, the key a path of keys and of
+  /// numbers of list entries (from 0), the value YAML, e.g. `steps.0.until={after: 0.6}`. A key that is not there
+  /// is added.
+  /// @throws Error  cannot be read, is not YAML (names the line), or goes on behind its first document;
+  ///                an override that is no key=value, or leads through something that has no entries
+  static YamlEntry read(const std::string& path, const std::vector<std::string>& overrides = {});
 
   /// Refuses a file whose key `format` is not `<name> <version>` of a version from 1 to the newest;
   /// to be asked before all else, so that a file of a newer format is refused for that and not for
