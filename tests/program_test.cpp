@@ -96,8 +96,8 @@ TEST(Program, LeavesNoPictureWhereTheDiskIsFull) {
 }
 
 // The table in the README is what the bench leaves, but for pouring, whose grains follow the last bit of a machine's
-// mathematical library.
-TEST(Program, PrintsTheTableOfTheReadme) {
+// mathematical library; and every figure is as in the committed baselines.
+TEST(Program, PrintsTheTableOfTheReadmeAndKeepsTheBaselines) {
   const auto rows = [](const std::string& text) {
     std::vector<std::string> table;
     std::istringstream lines(text);
@@ -111,10 +111,37 @@ TEST(Program, PrintsTheTableOfTheReadme) {
   const TempFolder folder;
   const std::string readme = test::read_file(std::string(SEAM_README));
   const auto begin = readme.find("<!-- table -->");
-  ASSERT_EQ(run("bench carrying catching line wiping --out " + folder.path("r")).status, 0);
+  const Outcome outcome = run("bench carrying catching line wiping --out " + folder.path("r") +
+                              " --check " SEAM_BASELINES);
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
   const auto left = rows(test::read_file(folder.path("r/overview.md")));
   ASSERT_EQ(left.size(), 17U);
   EXPECT_EQ(left, rows(readme.substr(begin, readme.find("<!-- /table -->") - begin)));
+}
+
+// Long: in builds with sanitizers the other scenes will do.
+TEST(Program, KeepsTheBaselinesOfPouring) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "plays 40 runs with grains";
+#endif
+  const TempFolder folder;
+  const Outcome outcome =
+      run("bench pouring --out " + folder.path("r") + " --check " SEAM_BASELINES);
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+}
+
+// As a user sees the gate: a reference that the integrator does not match tracks worse.
+TEST(Program, FailsACheckWithExitCodeOneUntilTheBaselinesAreRenewed) {
+  const TempFolder folder;
+  for (const char* file : {"tolerances.yaml", "line.json"})
+    folder.write(file, test::read_file(std::string(SEAM_BASELINES "/") + file));
+  const std::string bench = "bench line --set control.reference=plain --out " + folder.path("r") +
+                            " --check " + folder.path("");
+  const Outcome worse = run(bench);
+  EXPECT_EQ(worse.status, 1);
+  EXPECT_THAT(worse.output, AllOf(HasSubstr("line dmp3: tracking_max_rad"), HasSubstr("worse by")));
+  EXPECT_EQ(run(bench + " --update").status, 0);
+  EXPECT_EQ(run(bench).status, 0);
 }
 
 TEST(Program, HelpsWithExitCodeZero) {
@@ -146,6 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "line.yaml:18: key \"dt\": 0.05, is too long"},
         BadCall{"SetNothing", "bench line --set dt", "dt: must be key=value"},
         BadCall{"SetUnknown", "run line --method dmp2 --set dz=1", "key \"dz\": not known here"},
+        BadCall{"NoBaselines", "bench line --check @", "tolerances.yaml: cannot be read"},
+        BadCall{"RenewsNothing", "bench line --update", "--update: needs --check"},
         BadCall{"NoFolder", "bench line --out ''", "--out: is empty"},
         BadCall{"SceneTwice", "bench line line", "scene \"line\": given twice"},
         BadCall{"UnwritableFolder", "bench line --out /proc/seam", "/proc/seam"}),

@@ -1,0 +1,209 @@
+#include "bench/bench_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bench/columns.hpp"
+#include "bench/compare.hpp"
+#include "bench/figure.hpp"
+#include "bench/gate.hpp"
+#include "bench/report.hpp"
+#include <seam/error.hpp>
+
+namespace seam {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes;
+  std::vector<std::string> methods;
+  std::optional<double> dt;  // [s]
+  std::vector<double> speeds;
+  std::vector<std::string> overrides;
+  bool list = false;
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::string out = "results";
+  std::string baselines;  // folder; empty: none
+  bool update = false;
+};
+
+// A scene is a file, or the name of one of the project's own.
+std::string scene_file(const std::string& scene) {
+  if (std::filesystem::is_regular_file(scene) || scene.find_first_of("./") != std::string::npos)
+    return scene;
+  return std::string(SEAM_SCENES) + "/" + scene + ".yaml";
+}
+
+std::vector<std::string> own_scenes() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SEAM_SCENES))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// What is set anew in each scene, at each speed.
+std::vector<std::vector<std::string>> overrides_of(const Options& options) {
+  std::vector<std::string> all = options.overrides;
+  if (options.dt) all.push_back(fmt::format("dt={}", *options.dt));
+  if (options.speeds.empty()) return {all};
+  std::vector<std::vector<std::string>> each(options.speeds.size(), all);
+  for (std::size_t i = 0; i < each.size(); ++i)
+    each[i].push_back(fmt::format("speed={}", options.speeds[i]));
+  return each;
+}
+
+std::vector<Scene> read_scenes(const Options& options) {
+  std::vector<Scene> scenes;
+  std::set<std::string> seen;
+  for (const std::string& name : options.scenes.empty() ? own_scenes() : options.scenes)
+    for (const auto& overrides : overrides_of(options)) {
+      Scene& scene = scenes.emplace_back(Scene::read(scene_file(name), overrides));
+      if (scene.speed != 1.0) scene.name += fmt::format("-{:g}x", scene.speed);
+      if (!seen.insert(scene.name).second)
+        throw Error("scene \"" + scene.name + "\"", "given twice");
+    }
+  return scenes;
+}
+
+void list_scenes(const Options& options) {
+  for (const Scene& scene : read_scenes(options))
+    fmt::print("{:10}  {}\n", scene.name, scene.title);
+}
+
+std::vector<Join> read_methods(const std::vector<std::string>& names) {
+  std::vector<Join> methods;
+  for (const std::string& name : names) methods.push_back(join_from_name(name));
+  if (names.empty()) methods.assign(all_joins.begin(), all_joins.end());
+  return methods;
+}
+
+std::string own_method(const std::string& scene) {
+  const auto method = Scene::read(scene_file(scene)).method;
+  if (!method)
+    throw Error(scene, "has no key \"method\", needs --method dmp2, dmp2a, dmp3 or dmp2j");
+  return std::string(to_string(*method));
+}
+
+void show_progress(int done, int total, const std::string& what) {
+  if (!isatty(STDERR_FILENO)) return;
+  fmt::print(stderr, "\r\033[K{}/{} {}{}", done, total, what, done == total ? "\r\033[K" : "");
+  std::fflush(stderr);
+}
+
+void print(const Comparison& comparison) {
+  fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title,
+             comparison.scene.dt * 1e3, table(comparison));
+  fmt::print("played at");
+  for (const Run& run : comparison.runs)
+    fmt::print(" {} {:.0f}x{}", to_string(run.method), run.real_time_factor,
+               &run == &comparison.runs.back() ? " real time\n\n" : ",");
+}
+
+// Whether all figures are as in the baselines, or they are renewed.
+bool check(const std::vector<Comparison>& comparisons, Baselines& baselines,
+           const Options& options) {
+  const Figures now = figures(comparisons);
+  const std::vector<Difference> differences = baselines.check(now);
+  for (const Difference& difference : differences) fmt::print("{}\n", to_string(difference));
+  fmt::print("{}: {} figures differ by more than allowed{}\n", options.baselines,
+             differences.size(), options.update ? ", and are renewed" : "");
+  if (options.update) baselines.update(now);
+  return differences.empty() || options.update;
+}
+
+bool bench(const Options& options) {
+  if (options.out.empty()) throw Error("--out", "is empty, must be a folder");
+  if (options.update && options.baselines.empty())
+    throw Error("--update", "needs --check, which names the baselines");
+  if (options.list) {
+    list_scenes(options);
+    return true;
+  }
+  std::optional<Baselines> baselines;
+  if (!options.baselines.empty()) baselines.emplace(options.baselines);
+  require_gnuplot();
+  const auto comparisons =
+      compare(read_scenes(options), read_methods(options.methods), options.jobs, show_progress);
+  write_results(comparisons, SEAM_VERSION, options.out);
+  for (const Comparison& comparison : comparisons) {
+    print(comparison);
+    draw_figures(comparison, options.out);
+  }
+  if (comparisons.size() > 1) fmt::print("{}\n", overview(comparisons));
+  fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n",
+             options.out);
+  return !baselines || check(comparisons, *baselines, options);
+}
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("--dt", options.dt, "Bullet's tick [s] (default: the scene's)")
+      ->check(CLI::Number & CLI::Range(least_tick, largest_tick));
+  command
+      .add_option("--speed", options.speeds,
+                  "factors by which all is played faster; several are compared")
+      ->allow_extra_args(false)
+      ->delimiter(',')
+      ->check(CLI::Number & CLI::Range(1e-3, 1e3));
+  command
+      .add_option("--set", options.overrides,
+                  "key=value: an entry of the scene file set anew, e.g. actuator.lag=0.002 or "
+                  "sequence.steps.0.until={after: 0.6}; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_option("--out", options.out, "folder for the results")->capture_default_str();
+}
+
+void bench_and_exit(const Options& options) {
+  if (!bench(options)) throw CLI::RuntimeError(1);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("bench", "play scenes with every method and compare");
+  command.add_option("scenes", options->scenes,
+                     "scene files, or names of seam's own (default: all of those)");
+  command
+      .add_option("--method", options->methods,
+                  "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
+      ->allow_extra_args(false)
+      ->delimiter(',');
+  command.add_flag("--list", options->list, "name the scenes, a line each, and play none");
+  command.add_option("--check", options->baselines,
+                     "folder of baselines; figures that differ from them are named, exit code 1");
+  command.add_flag("--update", options->update, "renew the baselines and show what differed");
+  add_common(command, *options);
+  command.callback([options] { bench_and_exit(*options); });
+}
+
+void add_run_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("run", "play one scene with one method");
+  command.add_option("scene", options->scenes, "scene file, or name of one of seam's own")
+      ->required()
+      ->expected(1);
+  command
+      .add_option("--method", options->methods,
+                  "joining method: dmp2, dmp2a, dmp3, dmp2j (default: the scene's)")
+      ->expected(1);
+  add_common(command, *options);
+  command.callback([options] {
+    if (options->methods.empty()) options->methods = {own_method(options->scenes[0])};
+    bench_and_exit(*options);
+  });
+}
+
+}  // namespace seam
