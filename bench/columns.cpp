@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/markdown.hpp"
+
 namespace seam {
 
 namespace {
@@ -37,96 +39,81 @@ std::string heading_of(std::string name) {
 
 }  // namespace
 
-std::vector<Column> columns(const Comparison& comparison) {
-  const Recording& recording = comparison.runs.front().recording;
+std::vector<Column> columns(const Recording& recording) {
   const bool tool = recording.in_task_space();
+  const bool angles = !tool || recording.coordinates.size() > 3;
   using M = RunMetrics;
-  std::vector<Column> list{
-      metric("torque_jump_nm", "torque jump [N·m]", "{:.3g}", &M::torque_jump_nm),
-      metric("torque_jump_percent", "of limit [%]", "{:.2g}", &M::torque_jump_percent),
-      {"torque_jump_order", "order [in dt]", "{:.2f}",
-       [](const Run& r) { return r.torque_jump_order; }},
+  std::vector<Column> list;
+  const auto add = [&](bool there, const Column& column) {
+    if (there) list.push_back(column);
   };
-  if (tool)
-    list.push_back(metric("acceleration_jump_m_s2", "accel. jump [m/s²]", "{:.2g}",
-                          &M::acceleration_jump_m_s2));
-  if (!tool || comparison.scene.sequence.coordinates().size() > 3)
-    list.push_back(metric("acceleration_jump_rad_s2", "accel. jump [rad/s²]", "{:.2g}",
-                          &M::acceleration_jump_rad_s2));
-  for (const Column& column :
-       {metric("torque_rate_peak_nm_s", "peak torque rate [N·m/s]", "{:.0f}",
-               &M::torque_rate_peak_nm_s),
-        metric("torque_rate_rms_nm_s", "RMS [N·m/s]", "{:.0f}", &M::torque_rate_rms_nm_s),
-        metric("jerk_peak_rad_s3", "peak jerk [rad/s³]", "{:.0f}", &M::jerk_peak_rad_s3),
-        metric("jerk_rms_rad_s3", "RMS [rad/s³]", "{:.0f}", &M::jerk_rms_rad_s3),
-        metric("tracking_rms_rad", "tracking RMS [rad]", "{:.1e}", &M::tracking_rms_rad),
-        metric("tracking_max_rad", "max [rad]", "{:.1e}", &M::tracking_max_rad)})
-    list.push_back(column);
-  if (tool) {
-    list.push_back(
-        metric("tool_tracking_max_m", "tool, max [m]", "{:.1e}", &M::tool_tracking_max_m));
-    list.push_back(
-        metric("tool_tracking_max_rad", "max [rad]", "{:.1e}", &M::tool_tracking_max_rad));
-    list.push_back({"deviation_peak_m", "deviation [m]", "{:.3f}",
-                    [](const Run& r) { return r.deviation_peak_m; }});
-  }
-  list.push_back({"deviation_peak_rad", tool ? "[rad]" : "deviation [rad]", "{:.3f}",
-                  [](const Run& r) { return r.deviation_peak_rad; }});
+  add(true, metric("torque_jump_nm", "torque jump [N·m]", "{:.3g}", &M::torque_jump_nm));
+  add(true, metric("torque_jump_percent", "torque jump, of the limit [%]", "{:.2g}",
+                   &M::torque_jump_percent));
+  add(true,
+      metric("torque_jump_order", "torque jump, order in dt", "{:.2f}", &M::torque_jump_order));
+  add(tool, metric("acceleration_jump_m_s2", "acceleration jump [m/s²]", "{:.2g}",
+                   &M::acceleration_jump_m_s2));
+  add(angles, metric("acceleration_jump_rad_s2", "acceleration jump [rad/s²]", "{:.2g}",
+                     &M::acceleration_jump_rad_s2));
+  add(true, metric("torque_rate_peak_nm_s", "torque rate, peak [N·m/s]", "{:.0f}",
+                   &M::torque_rate_peak_nm_s));
+  add(true, metric("torque_rate_rms_nm_s", "torque rate, RMS [N·m/s]", "{:.0f}",
+                   &M::torque_rate_rms_nm_s));
+  add(true, metric("saturated_share", "share of time at the effort limit", "{:.2g}",
+                   &M::saturated_share));
+  add(true, metric("jerk_peak_rad_s3", "jerk, peak [rad/s³]", "{:.0f}", &M::jerk_peak_rad_s3));
+  add(true, metric("jerk_rms_rad_s3", "jerk, RMS [rad/s³]", "{:.0f}", &M::jerk_rms_rad_s3));
+  add(true, metric("tracking_rms_rad", "tracking, RMS [rad]", "{:.1e}", &M::tracking_rms_rad));
+  add(true, metric("tracking_max_rad", "tracking, max [rad]", "{:.1e}", &M::tracking_max_rad));
+  add(true, metric("tracking_after_join_max_rad", "tracking, max after a join [rad]", "{:.1e}",
+                   &M::tracking_after_join_max_rad));
+  add(tool,
+      metric("tool_tracking_rms_m", "tool tracking, RMS [m]", "{:.1e}", &M::tool_tracking_rms_m));
+  add(tool,
+      metric("tool_tracking_max_m", "tool tracking, max [m]", "{:.1e}", &M::tool_tracking_max_m));
+  add(tool, metric("tool_tracking_rms_rad", "tool tracking, RMS [rad]", "{:.1e}",
+                   &M::tool_tracking_rms_rad));
+  add(tool, metric("tool_tracking_max_rad", "tool tracking, max [rad]", "{:.1e}",
+                   &M::tool_tracking_max_rad));
+  add(tool, metric("deviation_peak_m", "deviation, peak of the tool [m]", "{:.3f}",
+                   &M::deviation_peak_m));
+  add(true,
+      metric("deviation_peak_rad", "deviation, peak [rad]", "{:.3f}", &M::deviation_peak_rad));
+  add(true,
+      metric("deviation_faded_s", "deviation, faded after [s]", "{:.2f}", &M::deviation_faded_s));
   for (const Outcome& scene : recording.outcomes)
     list.push_back({scene.name, heading_of(scene.name), "{:.3g}",
                     [name = scene.name](const Run& run) { return outcome(run, name); }});
   return list;
 }
 
+std::vector<JoinColumn> join_columns(const Recording& recording) {
+  using J = JoinMetrics;
+  std::vector<JoinColumn> list{
+      {"torque_jump_nm", "torque jump [N·m]", "{:.3g}", &J::torque_jump_nm},
+      {"torque_jump_percent", "torque jump, of the limit [%]", "{:.2g}", &J::torque_jump_percent},
+      {"torque_jump_order", "torque jump, order in dt", "{:.2f}", &J::torque_jump_order},
+      {"acceleration_jump_rad_s2", "acceleration jump [rad/s²]", "{:.2g}",
+       &J::acceleration_jump_rad_s2}};
+  if (recording.in_task_space())
+    list.push_back({"acceleration_jump_m_s2", "acceleration jump [m/s²]", "{:.2g}",
+                    &J::acceleration_jump_m_s2});
+  list.push_back({"tracking_max_rad", "tracking [rad]", "{:.1e}", &J::tracking_max_rad});
+  return list;
+}
+
 namespace {
 
-// Characters that a UTF-8 text takes on the screen.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
-}
-
-std::string shown(double value, const std::string& format) {
-  if (!std::isfinite(value)) return "n/a";
-  const std::string text = fmt::format(fmt::runtime(format), value);
-  const bool minus_zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
-  return minus_zero ? text.substr(1) : text;
-}
-
-using Rows = std::vector<std::vector<std::string>>;
-
+// A metric a row, a method a column.
 Rows cells(const Comparison& comparison) {
-  Rows rows(1, {"method"});
-  const std::vector<Column> list = columns(comparison);
-  for (const Column& column : list) rows[0].push_back(column.heading);
-  for (const Run& run : comparison.runs) {
-    std::vector<std::string> row{std::string(to_string(run.method))};
-    for (const Column& column : list) row.push_back(shown(column.of(run), column.format));
-    rows.push_back(std::move(row));
+  Rows rows(1, {"metric"});
+  for (const Run& run : comparison.runs) rows[0].emplace_back(to_string(run.method));
+  for (const Column& column : columns(comparison.runs.front().recording)) {
+    std::vector<std::string>& row = rows.emplace_back(1, column.heading);
+    for (const Run& run : comparison.runs) row.push_back(shown(column.of(run), column.format));
   }
   return rows;
-}
-
-// Aligned for reading on a terminal; the first `texts` columns to the left.
-std::string markdown(const Rows& rows, std::size_t texts) {
-  std::vector<std::size_t> widths(rows[0].size(), 0);
-  for (const auto& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
-  std::string text;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    text += "|";
-    for (std::size_t c = 0; c < widths.size(); ++c) {
-      const std::string padding(widths[c] - width(rows[r][c]), ' ');
-      text += c < texts ? " " + rows[r][c] + padding + " |" : " " + padding + rows[r][c] + " |";
-    }
-    text += '\n';
-    if (r > 0) continue;
-    text += "|";
-    for (std::size_t c = 0; c < widths.size(); ++c)
-      text += std::string(widths[c] + (c < texts ? 2 : 1), '-') + (c < texts ? "|" : ":|");
-    text += '\n';
-  }
-  return text;
 }
 
 // What a scene adds, in words.
@@ -159,12 +146,13 @@ std::string overview(const std::vector<Comparison>& comparisons) {
       const double share = dmp2 == comparison.runs.end()
                                ? std::numeric_limits<double>::quiet_NaN()
                                : 100.0 * run.metrics.torque_jump_nm / dmp2->metrics.torque_jump_nm;
-      rows.push_back(
-          {comparison.scene.name, std::string(to_string(run.method)), came_of(run),
-           shown(run.metrics.torque_jump_nm, "{:.3g}"),
-           shown(share, share < 10.0 ? "{:.2g}" : "{:.0f}"), shown(run.torque_jump_order, "{:.1f}"),
-           shown(run.metrics.torque_rate_peak_nm_s, "{:.0f}"),
-           shown(run.metrics.jerk_peak_rad_s3, "{:.0f}"), shown(run.deviation_peak_rad, "{:.3f}")});
+      rows.push_back({comparison.scene.name, std::string(to_string(run.method)), came_of(run),
+                      shown(run.metrics.torque_jump_nm, "{:.3g}"),
+                      shown(share, share < 10.0 ? "{:.2g}" : "{:.0f}"),
+                      shown(run.metrics.torque_jump_order, "{:.1f}"),
+                      shown(run.metrics.torque_rate_peak_nm_s, "{:.0f}"),
+                      shown(run.metrics.jerk_peak_rad_s3, "{:.0f}"),
+                      shown(run.metrics.deviation_peak_rad, "{:.3f}")});
     }
   }
   return markdown(rows, 3);

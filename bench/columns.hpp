@@ -17,10 +17,20 @@ struct Column {
   std::function<double(const Run& run)> of;
 };
 
-/// Those of a comparison: a scene in task space has more, and each scene what came of it.
-std::vector<Column> columns(const Comparison& comparison);
+/// Those of a recording: one in task space has more, and each scene what came of it.
+std::vector<Column> columns(const Recording& recording);
 
-/// The comparison as a Markdown table that is aligned for reading on a terminal.
+/// The same for the figures of one join.
+struct JoinColumn {
+  std::string name;
+  std::string heading;
+  std::string format;
+  double JoinMetrics::*of;
+};
+
+std::vector<JoinColumn> join_columns(const Recording& recording);
+
+/// The comparison as a Markdown table, a method a column, that is aligned for reading on a terminal.
 std::string table(const Comparison& comparison);
 /// All scenes and methods in one table: what came of each, and what it cost.
 std::string overview(const std::vector<Comparison>& comparisons);

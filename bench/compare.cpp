@@ -65,16 +65,7 @@ Run measured(const Play& full, const Play& half, const Play& dmp2) {
   Run run;
   run.method = full.method;
   run.recording = full.recording;
-  run.metrics = measure(full.recording);
-  for (std::size_t i = 0; i < run.metrics.joins.size(); ++i) {
-    const double jump = run.metrics.joins[i].torque_jump_nm;
-    const JoinMetrics finer = measure(half.recording, half.recording.joins[i]);
-    run.join_orders.push_back(jump_order(jump, finer.torque_jump_nm));
-    if (jump == run.metrics.torque_jump_nm) run.torque_jump_order = run.join_orders.back();
-  }
-  run.deviation_peak_rad = deviation_peak(full.recording, dmp2.recording);
-  if (full.recording.in_task_space())
-    run.deviation_peak_m = tool_deviation_peak(full.recording, dmp2.recording);
+  run.metrics = measure(full.recording, {&half.recording, &dmp2.recording});
   run.real_time_factor = simulated(full) / full.wall;
   return run;
 }

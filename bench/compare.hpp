@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,11 +16,7 @@ struct Run {
   Join method = Join::dmp2;
   Recording recording;
   RunMetrics metrics;
-  std::vector<double> join_orders;  // of the torque jump at each join
-  double torque_jump_order = std::numeric_limits<double>::quiet_NaN();  // of the worst join
-  double deviation_peak_rad = 0.0;  // [rad] of the reference from dmp2's
-  double deviation_peak_m = 0.0;    // [m] of the tool's, in task space
-  double real_time_factor = 0.0;    // simulated time over wall time; not the same twice
+  double real_time_factor = 0.0;  // simulated time over wall time; not the same twice
 };
 
 /// One scene played with several methods.

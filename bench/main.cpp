@@ -5,6 +5,7 @@
 
 #include "bench/bench_command.hpp"
 #include "bench/learn_command.hpp"
+#include "bench/metrics_command.hpp"
 #include "bench/rollout_command.hpp"
 #include <seam/error.hpp>
 
@@ -18,6 +19,7 @@ int run(int argc, char** argv) {
   seam::add_run_command(app);
   seam::add_learn_command(app);
   seam::add_rollout_command(app);
+  seam::add_metrics_command(app);
 
   try {
     app.parse(argc, argv);

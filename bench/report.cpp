@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/columns.hpp"
+#include "bench/run_json.hpp"
 #include <seam/error.hpp>
 #include <seam/table.hpp>
 
@@ -15,34 +16,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json joins_of(const Run& run) {
-  Json joins = Json::array();
-  for (std::size_t i = 0; i < run.metrics.joins.size(); ++i) {
-    const JoinMetrics& join = run.metrics.joins[i];
-    joins.push_back({{"time", join.time},
-                     {"metrics",
-                      {{"torque_jump_nm", join.torque_jump_nm},
-                       {"torque_jump_percent", join.torque_jump_percent},
-                       {"torque_jump_order", run.join_orders[i]},
-                       {"acceleration_jump_rad_s2", join.acceleration_jump_rad_s2}}}});
-    if (run.recording.in_task_space())
-      joins.back()["metrics"]["acceleration_jump_m_s2"] = join.acceleration_jump_m_s2;
-  }
-  return joins;
-}
-
 Json summary(const std::vector<Comparison>& comparisons, const std::string& seam_version) {
   Json runs = Json::array();
   for (const Comparison& comparison : comparisons)
     for (const Run& run : comparison.runs) {
-      Json metrics;
-      for (const Column& column : columns(comparison)) metrics[column.name] = column.of(run);
-      runs.push_back({{"scene", comparison.scene.name},
-                      {"method", to_string(run.method)},
-                      {"dt", comparison.scene.dt},
-                      {"seed", comparison.scene.seed},
-                      {"joins", joins_of(run)},
-                      {"metrics", metrics}});
+      Json entry{{"scene", comparison.scene.name},
+                 {"method", to_string(run.method)},
+                 {"dt", comparison.scene.dt},
+                 {"seed", comparison.scene.seed}};
+      entry.update(to_json(run));
+      runs.push_back(std::move(entry));
     }
   return {{"format", 1},
           {"versions", {{"seam", seam_version}, {"bullet", BT_BULLET_VERSION}}},

@@ -30,7 +30,7 @@ TEST(Program, BenchComparesAndLeavesTheSameBytesTwice) {
   const Outcome first = run("bench line --out " + folder.path("a"));
   ASSERT_EQ(first.status, 0) << first.output;
   EXPECT_THAT(first.output,
-              AllOf(HasSubstr("| dmp2 "), HasSubstr("| dmp2a "), HasSubstr("| dmp3 ")));
+              AllOf(HasSubstr("   dmp2 |"), HasSubstr("  dmp2a |"), HasSubstr("   dmp3 |")));
   ASSERT_EQ(run("bench line --jobs 1 --out " + folder.path("b")).status, 0);
   const auto files = files_below(folder.path("a"));
   EXPECT_THAT(files, testing::IsSupersetOf({"summary.json", "line/dmp2.csv", "line/dmp2a.csv",

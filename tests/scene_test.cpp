@@ -41,11 +41,11 @@ TEST(LineScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
   ASSERT_EQ(dmp2.metrics.joins.size(), 2U);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_GT(dmp2.metrics.joins[j].torque_jump_nm, 10.0);
-    EXPECT_NEAR(dmp2.join_orders[j], 0.0, 0.1);
+    EXPECT_NEAR(dmp2.metrics.joins[j].torque_jump_order, 0.0, 0.1);
     for (const seam::Run* run : {&runs[1], &runs[2]}) {
       EXPECT_LE(run->metrics.joins[j].torque_jump_nm, 0.02 * dmp2.metrics.joins[j].torque_jump_nm)
           << to_string(run->method);
-      EXPECT_GE(run->join_orders[j], 0.9) << to_string(run->method);
+      EXPECT_GE(run->metrics.joins[j].torque_jump_order, 0.9) << to_string(run->method);
       EXPECT_LE(run->metrics.joins[j].acceleration_jump_rad_s2,
                 1e-9 * run->recording.ref_acc.cwiseAbs().maxCoeff());
     }
@@ -97,7 +97,7 @@ TEST(SceneEvents, ChangeTheGoalOnTheWayAndAreMeasuredLikeJoins) {
   for (const seam::Run& run : {runs[1], runs[2], runs[3]}) {
     EXPECT_LT(run.metrics.joins[1].acceleration_jump_rad_s2, 1e-9);
     EXPECT_LT(run.metrics.joins[1].torque_jump_nm, 0.02 * dmp2.metrics.joins[1].torque_jump_nm);
-    EXPECT_GE(run.join_orders[3], 0.9);
+    EXPECT_GE(run.metrics.joins[3].torque_jump_order, 0.9);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,53 +12,71 @@ namespace seam {
 /// Step of each column of a signal at a time: the difference between its two one-sided limits. A
 /// straight line is fitted to the three ticks that end two before the join, another to the three
 /// that begin two after it, and both are carried to the join. A step in the signal is found whole;
-/// a continuous signal leaves an error of order dt².
+/// a continuous signal leaves an error of order dt² (of order dt where it has a kink and the time of
+/// the join is off by a part of a tick). White noise of standard deviation s leaves one of 3.1 s.
 /// @param time    [s] N, even
 /// @param signal  N × n
 /// @param at      [s]
 /// @return        n; NaN where the signal does not reach four ticks to either side
 Eigen::VectorXd jump(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal, double at);
 
-/// Order of a jump in dt: log₂(jump at dt / jump at dt/2). About 0 for a step, 2 for a smooth
-/// signal.
+/// Order of a jump in dt: log₂(jump at dt / jump at dt/2). About 0 for a step, 1 for a kink whose time is
+/// off, 2 for a smooth signal.
 double jump_order(double at_dt, double at_half_dt);
 
-/// What a join does to the torque.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Time after a join in which tracking counts as the join's [s].
+inline constexpr double after_join = 0.2;
+/// Share of its peak below which a deviation has faded.
+inline constexpr double faded_share = 0.05;
+
+/// What a join does to the torque. NaN: cannot be measured, or not without what was not given.
 struct JoinMetrics {
-  double time = 0.0;                      // [s]
-  double torque_jump_nm = 0.0;            // [N·m] largest over joints
-  double torque_jump_percent = 0.0;       // [%] of the joint's effort limit, largest over joints
-  double acceleration_jump_rad_s2 = 0.0;  // [rad/s²] of the reference, exact one-sided values
-  double acceleration_jump_m_s2 = 0.0;    // [m/s²] likewise, of a tool's x y z
+  double time = 0.0;                          // [s]
+  int joint = -1;                             // that of torque_jump_nm
+  double torque_jump_nm = unknown;            // [N·m] largest |jump| over joints
+  double torque_jump_percent = unknown;       // [%] of the joint's effort limit, largest over joints
+  double torque_jump_order = unknown;         // log₂ of its ratio between dt and dt/2
+  double acceleration_jump_rad_s2 = unknown;  // [rad/s²] of the reference, exact one-sided values
+  double acceleration_jump_m_s2 = unknown;    // [m/s²] likewise, of a tool's x y z
+  double tracking_max_rad = unknown;  // [rad] largest |ref − q| from the join to after_join later, or to the next join
 };
 
-/// A whole run. Derivatives are differences between neighbouring ticks.
+/// A whole run. Derivatives are differences between neighbouring ticks, xₖ₊₁ − xₖ over dt. NaN as above.
 struct RunMetrics {
   std::vector<JoinMetrics> joins;
-  double torque_jump_nm = 0.0;  // worst over the joins
-  double torque_jump_percent = 0.0;
-  double acceleration_jump_rad_s2 = 0.0;
-  double acceleration_jump_m_s2 = 0.0;
-  double torque_rate_peak_nm_s = 0.0;  // [N·m/s] largest |Δtorque|/dt over joints and ticks
-  double torque_rate_rms_nm_s = 0.0;   // root mean square, of the joint where it is largest
-  double jerk_peak_rad_s3 = 0.0;       // [rad/s³] of the reference acceleration, likewise
-  double jerk_rms_rad_s3 = 0.0;
-  double tracking_max_rad = 0.0;  // [rad] largest |ref − q|
-  double tracking_rms_rad = 0.0;  // of the joint where it is largest
-  double tool_tracking_max_m =
-      0.0;  // [m] largest distance of the tool from its reference; task space alone
-  double tool_tracking_max_rad = 0.0;  // [rad] likewise
+  double torque_jump_nm = unknown;  // worst over the joins; NaN where one could not be measured
+  double torque_jump_percent = unknown;
+  double torque_jump_order = unknown;  // of the join where torque_jump_nm is largest
+  double acceleration_jump_rad_s2 = unknown;
+  double acceleration_jump_m_s2 = unknown;
+  double torque_rate_peak_nm_s = unknown;  // [N·m/s] largest |Δtorque|/dt over joints and ticks
+  double torque_rate_rms_nm_s = unknown;   // √mean((Δtorque/dt)²) of the joint where it is largest
+  double jerk_peak_rad_s3 = unknown;       // [rad/s³] of the reference acceleration, likewise
+  double jerk_rms_rad_s3 = unknown;
+  double tracking_max_rad = unknown;             // [rad] largest |ref − q| over joints and ticks
+  double tracking_rms_rad = unknown;             // √mean(|ref − q|²) of the joint where it is largest
+  double tracking_after_join_max_rad = unknown;  // worst over the joins
+  double tool_tracking_max_m = unknown;  // [m] largest distance of the tool from its reference
+  double tool_tracking_rms_m = unknown;
+  double tool_tracking_max_rad = unknown;  // [rad] likewise, angle of the rotation between them
+  double tool_tracking_rms_rad = unknown;
+  double saturated_share = unknown;     // share of the ticks in which a joint's |torque| ≥ its effort limit
+  double deviation_peak_rad = unknown;  // [rad] largest |ref − dmp2's ref| over joints and ticks: the price of smoothness
+  double deviation_peak_m = unknown;    // [m] likewise, distance of the tool's references
+  /// [s] from the last join before that peak (of the joints) until the deviation stays below faded_share of it.
+  double deviation_faded_s = unknown;
 };
 
-JoinMetrics measure(const Recording& recording, const RecordedJoin& join);
-RunMetrics measure(const Recording& recording);
+/// Other recordings of the same run, for what one alone does not tell.
+struct Companions {
+  const Recording* half = nullptr;  // at dt/2: gives the orders
+  const Recording* dmp2 = nullptr;  // with dmp2, at the same dt: gives the deviations
+};
 
-/// Largest distance [rad] between the references of two runs of the same length.
-/// @throws Error  the runs differ in ticks or joints
-double deviation_peak(const Recording& run, const Recording& other);
-
-/// Largest distance [m] between the tool's references of two runs in task space, of the same length.
-/// @throws Error  the runs differ in ticks, or one is not in task space
-double tool_deviation_peak(const Recording& run, const Recording& other);
+/// Measures what a recording has columns for; the rest is NaN.
+/// @throws Error  fewer than 2 ticks, or a companion that differs in joins (half) or ticks and joints (dmp2)
+RunMetrics measure(const Recording& recording, const Companions& companions = {});
 
 }  // namespace seam

@@ -56,8 +56,16 @@ struct Recording {
   int ticks() const { return static_cast<int>(time.size()); }
   double dt() const { return time(1) - time(0); }  // [s]
 
+  /// A join at a time [s], its acceleration jumps estimated from ref_acc (see jump), NaN where that cannot be.
+  RecordedJoin estimated_join(double at, int primitive) const;
+
   bool in_task_space() const { return !coordinates.empty(); }
 
+  /// Reads what `write` writes, or any CSV with `time` [s] first, at even ticks, and torque.<j> for each joint; of the
+  /// other columns each kind is there for all joints or for none, and is then empty. Columns of other names
+  /// become signals. A join is where `switch` changes (see estimated_join); without `switch` there is none. Effort limits are not in the file: NaN.
+  /// @throws Error  names the file, and the line or the column
+  static Recording read(const std::string& path);
   /// Writes the table as CSV: time, switch, ref.<j>, ref_vel.<j>, ref_acc.<j>, q.<j>, qd.<j>,
   /// torque.<j>; in task space also ref.<c>, ref_vel.<c>, ref_acc.<c>, tool_error_m, tool_error_rad; the signals.
   /// @throws Error  cannot be written

@@ -1,0 +1,20 @@
+#include "bench/run_json.hpp"
+
+#include "bench/columns.hpp"
+
+namespace seam {
+
+nlohmann::ordered_json to_json(const Run& run) {
+  auto joins = nlohmann::ordered_json::array();
+  for (const JoinMetrics& join : run.metrics.joins) {
+    nlohmann::ordered_json metrics;
+    for (const JoinColumn& column : join_columns(run.recording))
+      metrics[column.name] = join.*column.of;
+    joins.push_back({{"time", join.time}, {"metrics", metrics}});
+  }
+  nlohmann::ordered_json metrics;
+  for (const Column& column : columns(run.recording)) metrics[column.name] = column.of(run);
+  return {{"joins", joins}, {"metrics", metrics}};
+}
+
+}  // namespace seam

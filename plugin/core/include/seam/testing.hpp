@@ -1,0 +1,163 @@
+#pragma once
+
+// For users' tests: what a recording should be. Each is a matcher of GoogleTest (1.11 or later) and needs nothing of it:
+//
+//     EXPECT_THAT(recording, seam::TorqueIsContinuousAt(1.25).within(0.5 /*N·m*/));
+//
+// and for other test frameworks a function: why_not(recording) is empty, or says what is wrong.
+
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <seam/metrics.hpp>
+
+namespace seam {
+
+namespace detail {
+
+inline std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+}  // namespace detail
+
+/// A property of a recording. Derived classes say `why_not` and `wanted`.
+template <typename Derived>
+class RecordingMatcher {
+ public:
+  using is_gtest_matcher = void;
+
+  bool MatchAndExplain(const Recording& recording, std::ostream* explanation) const {
+    const std::string reason = static_cast<const Derived&>(*this).why_not(recording);
+    if (explanation) *explanation << reason;
+    return reason.empty();
+  }
+  void DescribeTo(std::ostream* text) const {
+    *text << static_cast<const Derived&>(*this).wanted();
+  }
+  void DescribeNegationTo(std::ostream* text) const { *text << "not: ", DescribeTo(text); }
+};
+
+/// No joint's signal steps by more than a limit at some times (see `jump`: the difference of the one-sided limits).
+class NoJump : public RecordingMatcher<NoJump> {
+ public:
+  struct Of {
+    const char* name;
+    const char* unit;
+    Eigen::MatrixXd Recording::*values;
+  };
+
+  /// @param times  [s]; empty: all joins of the recording
+  NoJump(const Of& signal, std::vector<double> times, double limit)
+      : signal_(signal), times_(std::move(times)), limit_(limit) {}
+
+  /// Empty if so, else the joint that steps most, by how much and when.
+  std::string why_not(const Recording& recording) const {
+    std::vector<double> times = times_;
+    if (times.empty())
+      for (const RecordedJoin& join : recording.joins) times.push_back(join.time);
+    if (times.empty()) return "there is no join in the recording";
+    double worst = -1.0;
+    std::string reason;
+    for (const double time : times) {
+      const Eigen::VectorXd size = recording.ticks() < 2
+                                       ? Eigen::VectorXd()
+                                       : jump(recording.time, recording.*signal_.values, time);
+      if (size.size() == 0 || !size.allFinite())
+        return std::string(signal_.name) + " cannot be measured at " + detail::number(time) +
+               " s: needs four ticks to either side";
+      Eigen::Index joint = 0;
+      const double largest = size.cwiseAbs().maxCoeff(&joint);
+      if (largest <= limit_ || largest <= worst) continue;
+      worst = largest;
+      reason = std::string(signal_.name) + " of joint " +
+               recording.joints[static_cast<std::size_t>(joint)] + " steps by " +
+               detail::number(size(joint)) + " " + signal_.unit + " at " + detail::number(time) +
+               " s, must be within " + detail::number(limit_) + " " + signal_.unit;
+    }
+    return reason;
+  }
+  std::string wanted() const {
+    std::string text = std::string(signal_.name) + " steps by no more than " +
+                       detail::number(limit_) + " " + signal_.unit;
+    if (times_.empty()) return text + " at any join";
+    for (const double time : times_)
+      text += (text.back() == 's' ? ", " : " at ") + detail::number(time) + " s";
+    return text;
+  }
+
+ private:
+  Of signal_;
+  std::vector<double> times_;
+  double limit_;
+};
+
+/// Torque at a time [s]: `TorqueIsContinuousAt(join).within(0.5 /*N·m*/)`.
+class TorqueIsContinuousAt {
+ public:
+  explicit TorqueIsContinuousAt(double time) : time_(time) {}
+  NoJump within(double limit_nm) const {
+    return {{"torque", "N·m", &Recording::torque}, {time_}, limit_nm};
+  }
+
+ private:
+  double time_;
+};
+
+/// Torque at every join of the recording: `TorqueIsContinuousAtAllJoins().within(0.5 /*N·m*/)`.
+class TorqueIsContinuousAtAllJoins {
+ public:
+  NoJump within(double limit_nm) const {
+    return {{"torque", "N·m", &Recording::torque}, {}, limit_nm};
+  }
+};
+
+/// Acceleration of the joints' reference at a time [s], within a limit [rad/s²].
+class AccelerationIsContinuousAt {
+ public:
+  explicit AccelerationIsContinuousAt(double time) : time_(time) {}
+  NoJump within(double limit_rad_s2) const {
+    return {{"reference acceleration", "rad/s²", &Recording::ref_acc}, {time_}, limit_rad_s2};
+  }
+
+ private:
+  double time_;
+};
+
+/// No joint is further from its reference than a limit [rad], at any tick: `TracksWithin(1e-3)`.
+class TracksWithin : public RecordingMatcher<TracksWithin> {
+ public:
+  explicit TracksWithin(double limit_rad) : limit_(limit_rad) {}
+
+  std::string why_not(const Recording& recording) const {
+    if (recording.ref.size() == 0 || recording.ref.size() != recording.q.size())
+      return "tracking cannot be measured: needs ref and q of the joints";
+    Eigen::Index tick = 0, joint = 0;
+    const Eigen::MatrixXd error = recording.q - recording.ref;
+    if (!error.allFinite()) return "tracking cannot be measured: there is a NaN among ref and q";
+    if (error.cwiseAbs().maxCoeff(&tick, &joint) <= limit_) return {};
+    return "joint " + recording.joints[static_cast<std::size_t>(joint)] + " is " +
+           detail::number(error(tick, joint)) + " rad from its reference at " +
+           detail::number(recording.time(tick)) + " s, must be within " + detail::number(limit_) +
+           " rad";
+  }
+  std::string wanted() const {
+    return "joints stay within " + detail::number(limit_) + " rad of their references";
+  }
+
+ private:
+  double limit_;
+};
+
+/// How GoogleTest shows a recording.
+inline void PrintTo(const Recording& recording, std::ostream* text) {
+  *text << "a recording of " << recording.joints.size() << " joints, " << recording.ticks()
+        << " ticks, " << recording.joins.size() << " joins";
+}
+
+}  // namespace seam
