@@ -1,13 +1,11 @@
 #include "bench/compare.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <mutex>
-#include <thread>
 
+#include "bench/parallel.hpp"
 #include "scenes/play.hpp"
 
 namespace seam {
@@ -34,26 +32,14 @@ std::string description(const Play& play) {
 }
 
 void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
-  std::atomic<std::size_t> next{0};
   std::mutex mutex;
   int done = 0;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < plays.size(); i = next++) try {
-        perform(plays[i]);
-        const std::lock_guard lock(mutex);
-        progress(++done, static_cast<int>(plays.size()), description(plays[i]));
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = plays.size();
-      }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < jobs; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  for_each_index(static_cast<std::int64_t>(plays.size()), jobs, [&](std::int64_t i) {
+    Play& play = plays[static_cast<std::size_t>(i)];
+    perform(play);
+    const std::lock_guard lock(mutex);
+    progress(++done, static_cast<int>(plays.size()), description(play));
+  });
 }
 
 // A scene is played at each of its places.
