@@ -16,13 +16,16 @@ struct Play {
   const Scene* scene;
   Join method;
   double dt;
+  bool filmed;
   Recording recording;
+  Replay replay;
   double wall = 0.0;  // [s]
 };
 
 void perform(Play& play) {
   const auto begin = std::chrono::steady_clock::now();
-  play.recording = seam::play(*play.scene, play.method, play.dt);
+  play.recording =
+      seam::play(*play.scene, play.method, play.dt, play.filmed ? &play.replay : nullptr);
   play.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -51,6 +54,7 @@ Run measured(const Play& full, const Play& half, const Play& dmp2) {
   Run run;
   run.method = full.method;
   run.recording = full.recording;
+  run.replay = full.replay;
   run.metrics = measure(full.recording, {&half.recording, &dmp2.recording});
   run.real_time_factor = simulated(full) / full.wall;
   return run;
@@ -72,7 +76,7 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
   for (const Scene& scene : scenes)
     for (const Join method : played)
       for (const double share : {1.0, 0.5})
-        plays.push_back({&scene, method, share * scene.dt, {}, 0.0});
+        plays.push_back({&scene, method, share * scene.dt, share == 1.0, {}, {}, 0.0});
   perform_all(plays, jobs, progress);
 
   const auto play_of = [&](const Scene& scene, Join method) {

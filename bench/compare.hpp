@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/replay.hpp"
 #include "scenes/scene.hpp"
 #include <seam/join.hpp>
 #include <seam/metrics.hpp>
@@ -15,6 +16,7 @@ namespace seam {
 struct Run {
   Join method = Join::dmp2;
   Recording recording;
+  Replay replay;
   RunMetrics metrics;
   double real_time_factor = 0.0;  // simulated time over wall time; not the same twice
 };

@@ -47,8 +47,11 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
   for (const Comparison& comparison : comparisons) {
     const std::filesystem::path folder = results / comparison.scene.name;
     make_folder(folder);
-    for (const Run& run : comparison.runs)
-      run.recording.write((folder / (std::string(to_string(run.method)) + ".csv")).string());
+    for (const Run& run : comparison.runs) {
+      const std::string beside = (folder / to_string(run.method)).string();
+      run.recording.write(beside + ".csv");
+      run.replay.write(beside + ".replay.json");
+    }
     tables += (tables.empty() ? "" : "\n") + comparison.scene.title + " (`" +
               comparison.scene.name + "`):\n\n" + table(comparison);
   }

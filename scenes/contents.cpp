@@ -77,6 +77,7 @@ void read_liquid(const YamlEntry& entry, Scene& scene) {
       return;
     }
     scene.liquid = liquid;
+    scene.X_link_glass = X_link_glass;
     add_liquid(scene.simulated, link, X_link_glass, liquid);
   });
 }
@@ -106,6 +107,34 @@ void read_pouring(const YamlEntry& entry, Scene& scene) {
       add_vessel(*robot, scene.tool->link, pouring.X_link_bottle, pouring.bottle);
   });
   if (!frozen) scene.pouring = std::move(pouring);
+}
+
+Camera read_camera(const YamlEntry& entry) {
+  entry.only({"from", "at"});
+  const Camera camera{entry.at("from").numbers(3, "direction"),
+                      entry.at("at").numbers(3, "direction")};
+  const Eigen::Vector3d view = camera.at - camera.from;
+  if (!(view.head<2>().norm() > 1e-3 * view.norm()))
+    entry.fail("looks straight up or down, or nowhere");
+  return camera;
+}
+
+// Down to the floor.
+Geometry read_table(const YamlEntry& entry) {
+  entry.only({"at", "size"});
+  const YamlEntry at = entry.at("at");
+  const YamlEntry size = entry.at("size");
+  const Eigen::Vector3d top = at.numbers(3, "direction");
+  const Eigen::VectorXd edges = size.numbers(2, "edge");
+  if (!(top.z() > 0.0)) at.fail("must be above the floor");
+  if (!(edges.minCoeff() > 0.0)) size.fail("must be > 0");
+  Geometry box;
+  box.type = Geometry::Type::box;
+  box.size << edges, top.z();
+  box.X_body_shape = Eigen::Translation3d(top - Eigen::Vector3d(0.0, 0.0, 0.5 * top.z()));
+  box.colour << 0.83, 0.78, 0.71, 1.0;
+  box.has_colour = true;
+  return box;
 }
 
 }  // namespace seam

@@ -148,15 +148,14 @@ Liquid::Liquid(Robot& robot, const LiquidSettings& settings) : robot_(robot), sl
 
 void Liquid::pre_tick() noexcept {
   btMultiBody& multibody = robot_.multibody();
-  double square = 0.0;
-  for (int i = robot_.dof() - 2; i < robot_.dof(); ++i) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const int i = robot_.dof() - 2 + axis;
     const double shift = multibody.getJointPos(i);
-    square += shift * shift;
+    waves_(axis) = slosh_.wave_per_shift * shift;
     multibody.addJointTorque(
         i, -slosh_.modal_mass * slosh_.frequency *
                (slosh_.frequency * shift + 2.0 * slosh_.damping * multibody.getJointVel(i)));
   }
-  wave_ = slosh_.wave_per_shift * std::sqrt(square);
 }
 
 }  // namespace seam

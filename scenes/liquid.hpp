@@ -64,12 +64,14 @@ class Liquid {
   /// To be called once before each of Bullet's ticks. Neither allocates nor throws.
   void pre_tick() noexcept;
   /// Height of the wave at the wall [m], at the last tick's beginning.
-  double wave() const noexcept { return wave_; }
+  double wave() const noexcept { return waves_.norm(); }
+  /// The same along the glass's x and y: the surface rises towards (x, y).
+  const Eigen::Vector2d& waves() const noexcept { return waves_; }
 
  private:
   Robot& robot_;
   Slosh slosh_;
-  double wave_ = 0.0;
+  Eigen::Vector2d waves_ = Eigen::Vector2d::Zero();  // [m]
 };
 
 }  // namespace seam

@@ -1,5 +1,6 @@
 #include "scenes/object.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -8,51 +9,93 @@ namespace seam {
 
 namespace {
 
+// A vessel in the hand.
+Frame held(const Scene& scene, const Robot& robot, const Eigen::Isometry3d& X_link_vessel) {
+  Frame frame = robot.model().frame(scene.tool->link);
+  frame.X_body_frame = frame.X_body_frame * X_link_vessel;
+  return frame;
+}
+
 class SloshingLiquid final : public Object {
  public:
-  SloshingLiquid(const LiquidSettings& settings, Robot& robot, int ticks)
-      : settings_(settings), liquid_(robot, settings), wave_(Eigen::VectorXd::Zero(ticks)) {}
+  SloshingLiquid(const Scene& scene, Robot& robot, int ticks)
+      : settings_(*scene.liquid),
+        robot_(robot),
+        glass_(held(scene, robot, scene.X_link_glass)),
+        liquid_(robot, settings_),
+        wave_(Eigen::VectorXd::Zero(ticks)) {}
 
   void pre_tick(Eigen::Index tick) override {
     liquid_.pre_tick();
     wave_(tick) = liquid_.wave();
+    peak_ = std::max(peak_, wave_(tick));
+  }
+  void appear(Replay& replay) override {
+    part_ = replay.parts.size();
+    const VesselSettings glass{settings_.radius, settings_.depth + settings_.rim, 0.002,
+                               settings_.glass};
+    replay.parts.push_back({"glass", {}, glass});
+    replay.liquid = {
+        static_cast<int>(part_), settings_.radius, settings_.depth, settings_.rim, {}, {}};
+  }
+  void film(Eigen::Index frame, Replay& replay) const override {
+    replay.set_pose(frame, part_, robot_.X_world_frame(glass_));
+    replay.liquid->waves.row(frame) = liquid_.waves().cast<float>();
+    const double spilled = peak_ > settings_.rim ? share_above_rim(settings_, peak_) : 0.0;
+    replay.liquid->spilled(frame, 0) = static_cast<float>(spilled);
   }
   void finish(Recording& recording) const override {
-    const double peak = wave_.maxCoeff();
     recording.signals.push_back({"wave_m", wave_});
-    recording.outcomes.push_back({"wave_peak_m", peak});
-    recording.outcomes.push_back({"spilled_share", share_above_rim(settings_, peak)});
+    recording.outcomes.push_back({"wave_peak_m", peak_});
+    recording.outcomes.push_back({"spilled_share", share_above_rim(settings_, peak_)});
   }
 
  private:
   LiquidSettings settings_;
+  Robot& robot_;
+  Frame glass_;
   Liquid liquid_;
   Eigen::VectorXd wave_;
+  double peak_ = 0.0;  // [m] of the wave so far
+  std::size_t part_ = 0;
 };
 
 class PouredGrains final : public Object {
  public:
   PouredGrains(const Scene& scene, Robot& robot, std::size_t place)
-      : glass_(robot.world(), glass_pose(*scene.pouring, place), scene.pouring->glass),
-        grains_(robot.world(), bottle_pose(scene, robot), scene.pouring->bottle,
-                scene.pouring->grains, scene.seed) {}
+      : pouring_(*scene.pouring),
+        robot_(robot),
+        X_world_glass_(Eigen::Translation3d(pouring_.glass_at + pouring_.places[place])),
+        bottle_(held(scene, robot, pouring_.X_link_bottle)),
+        glass_(robot.world(), X_world_glass_, pouring_.glass),
+        grains_(robot.world(), robot.X_world_frame(bottle_), pouring_.bottle, pouring_.grains,
+                scene.seed) {}
 
   void pre_tick(Eigen::Index) override {}
+  void appear(Replay& replay) override {
+    part_ = replay.parts.size();
+    replay.parts.push_back({"glass", {}, pouring_.glass});
+    replay.parts.push_back({"bottle", {}, pouring_.bottle});
+    replay.grains = {pouring_.grains.radius, Replay::Track(0, 3 * grains_.count())};
+  }
+  void film(Eigen::Index frame, Replay& replay) const override {
+    replay.set_pose(frame, part_, X_world_glass_);
+    replay.set_pose(frame, part_ + 1, robot_.X_world_frame(bottle_));
+    for (int i = 0; i < grains_.count(); ++i)
+      replay.grains->positions.block<1, 3>(frame, 3 * i) = grains_.position(i).cast<float>();
+  }
   void finish(Recording& recording) const override {
     recording.outcomes.push_back({"poured_share", grains_.share_in(glass_)});
   }
 
  private:
-  static Eigen::Isometry3d glass_pose(const Pouring& pouring, std::size_t place) {
-    return Eigen::Isometry3d(Eigen::Translation3d(pouring.glass_at + pouring.places[place]));
-  }
-  static Eigen::Isometry3d bottle_pose(const Scene& scene, const Robot& robot) {
-    return robot.X_world_frame(robot.model().frame(scene.tool->link)) *
-           scene.pouring->X_link_bottle;
-  }
-
+  const Pouring& pouring_;
+  Robot& robot_;
+  Eigen::Isometry3d X_world_glass_;
+  Frame bottle_;
   StandingVessel glass_;
   Grains grains_;
+  std::size_t part_ = 0;
 };
 
 }  // namespace
@@ -60,8 +103,7 @@ class PouredGrains final : public Object {
 std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
                                                   std::size_t place) {
   std::vector<std::unique_ptr<Object>> objects;
-  if (scene.liquid)
-    objects.push_back(std::make_unique<SloshingLiquid>(*scene.liquid, robot, ticks));
+  if (scene.liquid) objects.push_back(std::make_unique<SloshingLiquid>(scene, robot, ticks));
   if (scene.pouring) objects.push_back(std::make_unique<PouredGrains>(scene, robot, place));
   return objects;
 }

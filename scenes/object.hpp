@@ -3,17 +3,21 @@
 #include <memory>
 #include <vector>
 
+#include "scenes/replay.hpp"
 #include "scenes/scene.hpp"
 #include <seam/recording.hpp>
 #include <seam/robot.hpp>
 
 namespace seam {
 
-/// Something in a scene beside the robot: what it does before each tick, and what it adds to the recording.
+/// Something in a scene beside the robot: what it does before each tick, and what it adds to the recording and the replay.
 class Object {
  public:
   virtual ~Object() = default;
   virtual void pre_tick(Eigen::Index tick) = 0;
+  /// Adds its parts, before the first tick, and says where they are; `film` follows a tick's `pre_tick`.
+  virtual void appear(Replay& replay) = 0;
+  virtual void film(Eigen::Index frame, Replay& replay) const = 0;
   /// After the last tick.
   virtual void finish(Recording& recording) const = 0;
 };

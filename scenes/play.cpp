@@ -1,10 +1,11 @@
 #include "scenes/play.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
-#include "scenes/object.hpp"
+#include "scenes/film.hpp"
 #include "scenes/world.hpp"
 #include <seam/bullet.hpp>
 #include <seam/error.hpp>
@@ -75,7 +76,8 @@ void add_joins(const Scene& scene, const Sequencer& sequencer, std::vector<Recor
                    [](const RecordedJoin& a, const RecordedJoin& b) { return a.time < b.time; });
 }
 
-Recording play_at(const Scene& scene, Join method, double dt, std::size_t place) {
+Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
+                  Replay* replay = nullptr) {
   World world;
   Robot robot(scene.simulated, *world);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(robot.dof());
@@ -88,11 +90,14 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place)
   const int ticks = scene.ticks(dt);
   Recording recording = room_for(scene, ticks);
   const auto objects = make_objects(scene, robot, ticks, place);
+  std::optional<Film> film;
+  if (replay) film.emplace(scene, method, robot, objects, dt, ticks, *replay);
   auto event = scene.events.begin();
   for (int k = 0; k < ticks; ++k) {
     for (; event != scene.events.end() && event->at <= (k + same_tick) * dt; ++event)
       happen(*event, scene, k * dt, controller.sequencer(), recording.joins);
     for (const auto& object : objects) object->pre_tick(k);
+    if (film) film->pre_tick(k);
     world->stepSimulation(dt, 0);
     record(controller.last_tick(), k * dt, k, recording);
   }
@@ -100,6 +105,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place)
   const bool stopped = controller.status() == Controller::Status::stopped;
   if (scene.tool) recording.outcomes.push_back({"stopped_share", stopped ? 1.0 : 0.0});
   add_joins(scene, controller.sequencer(), recording.joins);
+  if (film) film->finish(recording);
   return recording;
 }
 
@@ -114,12 +120,12 @@ void keep_worse(const std::vector<Outcome>& other, std::vector<Outcome>& outcome
 
 }  // namespace
 
-Recording play(const Scene& scene, Join method, double dt) {
+Recording play(const Scene& scene, Join method, double dt, Replay* replay) {
   if (!(dt >= 0.5 * least_tick && dt <= largest_tick && scene.control.stable_at(dt)))
     throw Error(scene.name,
                 "a tick of " + std::to_string(dt) +
                     " s, must be in 1e-6 to 0.1 s and short enough for the control gains");
-  Recording recording = play_at(scene, method, dt, 0);
+  Recording recording = play_at(scene, method, dt, 0, replay);
   for (std::size_t place = 1; place < scene.places(); ++place)
     keep_worse(play_at(scene, method, dt, place).outcomes, recording.outcomes);
   return recording;

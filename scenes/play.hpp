@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenes/replay.hpp"
 #include "scenes/scene.hpp"
 #include <seam/join.hpp>
 #include <seam/recording.hpp>
@@ -9,7 +10,8 @@ namespace seam {
 /// Runs a scene in a Bullet world of its own and records every tick. The same scene, method and dt
 /// give the same bits, whatever else runs beside it.
 /// @param dt  [s] Bullet's tick
+/// @param replay  filled with what it looks like, unless null
 /// @throws Error  see Robot and Controller
-Recording play(const Scene& scene, Join method, double dt);
+Recording play(const Scene& scene, Join method, double dt, Replay* replay = nullptr);
 
 }  // namespace seam

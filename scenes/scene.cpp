@@ -169,8 +169,8 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   const YamlEntry root = YamlEntry::read(path, overrides);
   root.require_format("seam-scene", 1);
   root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events",
-             "control", "actuator", "method", "seed", "dt", "settle", "duration", "speed",
-             "figure"});
+             "control", "actuator", "method", "seed", "dt", "settle", "duration", "speed", "camera",
+             "table", "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -193,6 +193,8 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   scene.duration = read_duration(root, scene.sequence);
   if (const auto speed = root.find("speed"))
     at_key(*speed, [&] { hasten(speed->positive(), scene); });
+  if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);
+  if (const auto table = root.find("table")) scene.table = read_table(*table);
   const YamlEntry figure = root.at("figure");
   scene.figure = figure.text();
   const auto& moved = scene.sequence.coordinates();

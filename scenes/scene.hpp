@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "scenes/camera.hpp"
 #include "scenes/event.hpp"
 #include "scenes/grains.hpp"
 #include "scenes/liquid.hpp"
@@ -35,7 +36,8 @@ struct Scene {
   std::string title;     // one line
   RobotModel robot;      // as the controller takes it to be
   RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
-  std::optional<LiquidSettings> liquid;  // that moves
+  std::optional<LiquidSettings> liquid;                            // that moves
+  Eigen::Isometry3d X_link_glass = Eigen::Isometry3d::Identity();  // of its glass, in the tool's
   std::optional<Pouring> pouring;
   Eigen::VectorXd start;             // [rad] joint positions at rest
   std::optional<ToolSettings> tool;  // in task space
@@ -49,7 +51,9 @@ struct Scene {
   double speed = 1.0;          // factor by which all of it is faster than its file's times say
   int seed = 0;                // of whatever is drawn by chance
   std::vector<Event> events;
-  std::string figure;  // the joint, or the tool's coordinate, that the figure shows
+  std::optional<Camera> camera;   // else one that all fits into
+  std::optional<Geometry> table;  // a box in the world that is seen, no more
+  std::string figure;             // the joint, or the tool's coordinate, that the figure shows
 
   int ticks(double step) const;  // of a run
   std::size_t places() const { return pouring ? pouring->places.size() : 1; }

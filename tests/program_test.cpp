@@ -34,7 +34,8 @@ TEST(Program, BenchComparesAndLeavesTheSameBytesTwice) {
   ASSERT_EQ(run("bench line --jobs 1 --out " + folder.path("b")).status, 0);
   const auto files = files_below(folder.path("a"));
   EXPECT_THAT(files, testing::IsSupersetOf({"summary.json", "line/dmp2.csv", "line/dmp2a.csv",
-                                            "line/dmp3.csv", "line/line.png", "line/torque.png"}));
+                                            "line/dmp3.csv", "line/dmp3.replay.json",
+                                            "line/line.png", "line/torque.png"}));
   EXPECT_EQ(files, files_below(folder.path("b")));
   for (const std::string& file : files)
     EXPECT_TRUE(test::read_file(folder.path("a/" + file)) ==
