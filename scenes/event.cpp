@@ -1,11 +1,10 @@
 #include "scenes/event.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <random>
 
 #include "plugin/files/src/yaml_reader.hpp"
+#include <seam/noise.hpp>
 
 namespace seam {
 
@@ -50,16 +49,9 @@ Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordin
   return event;
 }
 
-// The sum of twelve even ones, so that every platform draws the same.
-double normal(std::mt19937_64& random) {
-  double sum = -6.0;
-  for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 11) * 0x1p-53;
-  return sum;
-}
-
 // Where something is that moves at a constant velocity, seen at every picture of a camera.
-void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates,
-           std::mt19937_64& random, std::vector<Event>& events) {
+void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates, Noise& noise_source,
+           std::vector<Event>& events) {
   entry.only({"from", "to", "every", "goal", "velocity", "noise"});
   const double from = entry.at("from").not_negative();
   const double to = entry.at("to").not_negative();
@@ -79,7 +71,7 @@ void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates,
     Event event;
     event.at = from + i * every;
     event.goal = goal + (event.at - from) * velocity;
-    for (double& seen : event.goal) seen += spread * normal(random);
+    for (double& seen : event.goal) seen += spread * noise_source.normal();
     events.push_back(std::move(event));
   }
 }
@@ -105,10 +97,10 @@ bool Event::happen(Sequencer& sequencer) const noexcept {
 std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::string>& coordinates,
                                int seed) {
   std::vector<Event> events;
-  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  Noise noise(seed);
   for (const YamlEntry& item : entry.items()) {
     if (item.find("every"))
-      watch(item, coordinates, random, events);
+      watch(item, coordinates, noise, events);
     else
       events.push_back(read_event(item, coordinates));
   }

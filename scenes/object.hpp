@@ -10,22 +10,24 @@
 
 namespace seam {
 
-/// Something in a scene beside the robot: what it does before each tick, and what it adds to the recording and the replay.
+/// Something in a scene beside the robot: what it does before each tick, and what it adds, if anything, to the recording
+/// and the replay.
 class Object {
  public:
   virtual ~Object() = default;
   virtual void pre_tick(Eigen::Index tick) = 0;
   /// Adds its parts, before the first tick, and says where they are; `film` follows a tick's `pre_tick`.
-  virtual void appear(Replay& replay) = 0;
-  virtual void film(Eigen::Index frame, Replay& replay) const = 0;
+  virtual void appear(Replay&) {}
+  virtual void film(Eigen::Index /*frame*/, Replay&) const {}
   /// After the last tick.
-  virtual void finish(Recording& recording) const = 0;
+  virtual void finish(Recording&) const {}
 };
 
 /// What a scene has of them.
 /// @param robot   stands where the scene begins, and must outlive them
+/// @param dt      [s] Bullet's tick
 /// @param place   index of the glass's place
-std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
-                                                  std::size_t place);
+std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, double dt,
+                                                  int ticks, std::size_t place);
 
 }  // namespace seam

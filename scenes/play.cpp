@@ -89,7 +89,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
 
   const int ticks = scene.ticks(dt);
   Recording recording = room_for(scene, ticks);
-  const auto objects = make_objects(scene, robot, ticks, place);
+  const auto objects = make_objects(scene, robot, dt, ticks, place);
   std::optional<Film> film;
   if (replay) film.emplace(scene, method, robot, objects, dt, ticks, *replay);
   auto event = scene.events.begin();

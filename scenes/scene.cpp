@@ -8,6 +8,7 @@
 
 #include "plugin/files/src/sequence_entry.hpp"
 #include "scenes/contents.hpp"
+#include "scenes/reality.hpp"
 #include <seam/controller.hpp>
 #include <seam/error.hpp>
 
@@ -78,19 +79,6 @@ ControlSettings read_control(const YamlEntry& entry) {
   return control;
 }
 
-ActuatorSettings read_actuator(const YamlEntry& entry) {
-  ActuatorSettings actuator;
-  if (entry.is_text()) {
-    entry.choice({"ideal"});
-    return actuator;
-  }
-  entry.only({"effort_limit", "lag"});
-  if (const auto limit = entry.find("effort_limit"))
-    actuator.limit_effort = limit->choice({"no", "yes"}) == 1;
-  if (const auto lag = entry.find("lag")) actuator.lag = lag->not_negative();
-  return actuator;
-}
-
 double at_most(const YamlEntry& entry, double seconds) {
   if (seconds > most_seconds) entry.fail(entry.text() + ", must be <= 3600 s");
   return seconds;
@@ -158,6 +146,7 @@ Sequence Scene::sequence_at(std::size_t place) const {
 ControllerSettings Scene::controller() const {
   ControllerSettings settings(control, tool, robot);
   settings.actuator = actuator;
+  settings.sensor = sensor;
   return settings;
 }
 
@@ -168,9 +157,10 @@ int Scene::ticks(double step) const {
 Scene Scene::read(const std::string& path, const std::vector<std::string>& overrides) {
   const YamlEntry root = YamlEntry::read(path, overrides);
   root.require_format("seam-scene", 1);
-  root.only({"format", "title", "robot", "tool", "liquid", "pouring", "sequence", "events",
-             "control", "actuator", "method", "seed", "dt", "settle", "duration", "speed", "camera",
-             "table", "figure"});
+  root.only({"format",      "title",  "robot",   "tool",     "liquid",   "pouring",
+             "sequence",    "events", "control", "actuator", "friction", "sensors",
+             "model_error", "method", "seed",    "dt",       "settle",   "duration",
+             "speed",       "camera", "table",   "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -180,14 +170,19 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   scene.simulated = scene.robot;
   if (const auto liquid = root.find("liquid")) read_liquid(*liquid, scene);
   if (const auto pouring = root.find("pouring")) read_pouring(*pouring, scene);
+  if (const auto error = root.find("model_error")) read_model_error(*error, scene);
   read_steps(root.at("sequence"), scene);
   if (tool) start_with_tool(*tool, scene);
   if (const auto control = root.find("control")) scene.control = read_control(*control);
-  if (const auto actuator = root.find("actuator")) scene.actuator = read_actuator(*actuator);
+  if (const auto actuator = root.find("actuator"))
+    scene.actuator = read_actuator(*actuator, scene.robot);
+  if (const auto friction = root.find("friction"))
+    scene.friction = read_friction(*friction, scene.robot);
+  if (const auto sensors = root.find("sensors")) scene.sensor = read_sensor(*sensors, scene.robot);
   if (const auto method = root.find("method"))
     scene.method = at_key(*method, [&] { return join_from_name(method->text()); });
   if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt, scene.control);
-  if (const auto seed = root.find("seed")) scene.seed = seed->count(0);
+  if (const auto seed = root.find("seed")) scene.seed = scene.sensor.seed = seed->count(0);
   if (const auto events = root.find("events"))
     scene.events = read_events(*events, scene.sequence.coordinates(), scene.seed);
   scene.duration = read_duration(root, scene.sequence);

@@ -8,6 +8,7 @@
 
 #include "scenes/camera.hpp"
 #include "scenes/event.hpp"
+#include "scenes/friction.hpp"
 #include "scenes/grains.hpp"
 #include "scenes/liquid.hpp"
 #include <seam/controller.hpp>
@@ -45,6 +46,8 @@ struct Scene {
   std::vector<std::string> primitive_names;  // one per step of the sequence
   ControlSettings control;
   ActuatorSettings actuator;
+  std::optional<FrictionSettings> friction;  // unknown to the controller
+  SensorSettings sensor;
   std::optional<Join> method;  // with which `seam run` plays it unless told otherwise
   double dt = 1e-3;            // [s] Bullet's tick
   double duration = 0.0;       // [s] of a run

@@ -185,7 +185,7 @@ TEST(Scene, IsReadWithSomeEntriesSetAnew) {
   const Switch until = with({"sequence.steps.0.until={after: 0.5}"}).sequence.steps()[0].until;
   EXPECT_EQ(until.when, Switch::When::after);
   EXPECT_EQ(until.value, 0.5);
-  EXPECT_EQ(with({"actuator.lag=0.002"}).actuator.lag, 0.002);
+  EXPECT_EQ(with({"actuator.lag=0.002"}).actuator.lag(0), 0.002);
   const Scene fast = with({"speed=2"});
   EXPECT_EQ(fast.speed, 2.0);
   EXPECT_EQ(2.0 * fast.duration, with({}).duration);

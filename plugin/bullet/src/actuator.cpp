@@ -1,28 +1,52 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "settings_check.hpp"
 #include <seam/actuator.hpp>
 #include <seam/error.hpp>
 
 namespace seam {
 
-Actuator::Actuator(const RobotModel& model, const ActuatorSettings& settings)
-    : lag_(settings.lag), limit_(model.dof()), delivered_(Eigen::VectorXd::Zero(model.dof())) {
-  if (!(std::isfinite(lag_) && lag_ >= 0.0))
-    throw Error("actuator", "lag " + std::to_string(lag_) + " s, must be >= 0");
+namespace {
+
+Eigen::VectorXd limits(const RobotModel& model, bool limit) {
+  Eigen::VectorXd limits(model.dof());
   for (int i = 0; i < model.dof(); ++i)
-    limit_(i) = settings.limit_effort ? model.joints[static_cast<std::size_t>(i)].effort
-                                      : std::numeric_limits<double>::infinity();
+    limits(i) = limit ? model.joints[static_cast<std::size_t>(i)].effort
+                      : std::numeric_limits<double>::infinity();
+  return limits;
+}
+
+double within(double value, double limit) {
+  return std::min(std::max(value, -limit), limit);
+}
+
+}  // namespace
+
+Actuator::Actuator(const RobotModel& model, const ActuatorSettings& settings)
+    : quantum_(not_negative("actuator: quantum", settings.quantum, model.dof())),
+      limit_(limits(model, settings.limit_effort)),
+      rate_(settings.rate.each(model.dof())),
+      lag_(not_negative("actuator: lag", settings.lag, model.dof())),
+      driven_(Eigen::VectorXd::Zero(model.dof())),
+      delivered_(driven_) {
+  if (rate_.size() != model.dof() || !(rate_.array() > 0.0).all())
+    throw Error("actuator: rate", "must be a number > 0 [N·m/s], or one for each joint");
 }
 
 const Eigen::VectorXd& Actuator::deliver(double dt, const Eigen::VectorXd& commanded) noexcept {
-  const double share = begun_ && lag_ > 0.0 ? -std::expm1(-dt / lag_) : 1.0;
-  begun_ = true;
   for (Eigen::Index i = 0; i < delivered_.size(); ++i) {
-    const double limited = std::min(std::max(commanded(i), -limit_(i)), limit_(i));
-    delivered_(i) = share == 1.0 ? limited : delivered_(i) + share * (limited - delivered_(i));
+    const double step = quantum_(i);
+    const double command = step > 0.0 ? step * std::round(commanded(i) / step) : commanded(i);
+    const double wanted = within(command, limit_(i));
+    const double change = wanted - driven_(i);
+    const double most = rate_(i) * dt;
+    driven_(i) = !begun_ || std::abs(change) <= most ? wanted : driven_(i) + within(change, most);
+    delivered_(i) = begun_ && lag_(i) > 0.0
+                        ? delivered_(i) - std::expm1(-dt / lag_(i)) * (driven_(i) - delivered_(i))
+                        : driven_(i);
   }
+  begun_ = true;
   return delivered_;
 }
 

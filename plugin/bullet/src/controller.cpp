@@ -84,6 +84,7 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
       brake_(rest_at(tick_.q)),
       coming_to_rest_(tick_.q),
       law_(InverseDynamics(known(robot, settings)), valid(settings.law)),
+      sensor_(known(robot, settings), settings.sensor),
       actuator_(known(robot, settings), settings.actuator),
       next_(tick_.reference) {
   tick_.sequence = sequencer_.sample();
@@ -100,7 +101,7 @@ void Controller::pre_tick(double dt) noexcept {
   if (!(dt > 0.0)) return;
   tick_.time = sequencer_.time();
   tick_.running = sequencer_.running();
-  measure();
+  read_state();
   tick_.reference = next_;
   follow(tick_.reference);
   tick_.sequence = sequencer_.sample();
@@ -112,11 +113,14 @@ void Controller::pre_tick(double dt) noexcept {
     next_ = brake_.sample();
   }
   law_.set_gravity(robot_.gravity_in_base());
-  law_.torque(dt, tick_.q, tick_.qd, tick_.reference, next_.position, tick_.torque);
+  if (!sensor_.ideal()) sensor_.measure(dt, tick_.q, tick_.qd);
+  law_.torque(dt, sensor_.ideal() ? tick_.q : sensor_.q(),
+              sensor_.ideal() ? tick_.qd : sensor_.qd(), tick_.reference, next_.position,
+              tick_.torque);
   apply_torque(actuator_.deliver(dt, tick_.torque));
 }
 
-void Controller::measure() noexcept {
+void Controller::read_state() noexcept {
   robot_.state(q_, qd_);
   tick_.q = q_.head(tick_.q.size());
   tick_.qd = qd_.head(tick_.q.size());

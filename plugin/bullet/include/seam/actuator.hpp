@@ -1,23 +1,31 @@
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Core>
 
+#include <seam/per_joint.hpp>
 #include <seam/robot_model.hpp>
 
 namespace seam {
 
 /// What becomes of a commanded torque on its way to the joint; by default nothing.
 struct ActuatorSettings {
-  bool limit_effort = false;  // to the URDF's effort limits
-  double lag = 0.0;           // [s] time constant T of a first-order lag, 0: none
+  PerJoint quantum = 0.0;                                   // [N·m] step of the command, 0: none
+  bool limit_effort = false;                                // to the URDF's effort limits
+  PerJoint rate = std::numeric_limits<double>::infinity();  // [N·m/s] largest rate
+  PerJoint lag = 0.0;  // [s] time constant T of a first-order lag, 0: none
 };
 
-/// Commanded torque in, delivered torque out:
-///     Tṫ + t = u  (held over a tick of dt: t ← t + (1 − exp(−dt/T))(u − t)),  |u| ≤ effort
-/// It begins delivering what is commanded first. Neither allocates nor throws after construction.
+/// Commanded torque u in, delivered torque t out, over a tick of dt:
+///     u₁ = quantum·round(u/quantum)
+///     u₂ = u₁ within ± effort
+///     u₃ ← u₃ + (u₂ − u₃ within ± rate·dt)
+///     Tṫ + t = u₃ held over the tick: t ← t + (1 − exp(−dt/T))(u₃ − t)
+/// It begins delivering u₂ of what is commanded first. Neither allocates nor throws after construction.
 class Actuator {
  public:
-  /// @throws Error  the lag is not finite and ≥ 0
+  /// @throws Error  a setting is negative or not finite (a rate may be infinite, but not 0), or there are not as many as joints
   Actuator(const RobotModel& model, const ActuatorSettings& settings);
 
   /// @param dt  [s] > 0
@@ -25,9 +33,9 @@ class Actuator {
   const Eigen::VectorXd& deliver(double dt, const Eigen::VectorXd& commanded) noexcept;
 
  private:
-  double lag_;
-  Eigen::VectorXd limit_;
-  Eigen::VectorXd delivered_;
+  Eigen::VectorXd quantum_, limit_, rate_, lag_;
+  Eigen::VectorXd driven_;     // u₃
+  Eigen::VectorXd delivered_;  // t
   bool begun_ = false;
 };
 

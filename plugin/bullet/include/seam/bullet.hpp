@@ -10,3 +10,4 @@
 #include <seam/kinematics.hpp>
 #include <seam/plugin.hpp>
 #include <seam/robot.hpp>
+#include <seam/sensor.hpp>

@@ -10,6 +10,7 @@
 #include <seam/computed_torque.hpp>
 #include <seam/joint_reference.hpp>
 #include <seam/robot.hpp>
+#include <seam/sensor.hpp>
 #include <seam/sequencer.hpp>
 
 namespace seam {
@@ -24,6 +25,7 @@ struct ControllerSettings {
   /// Bullet has behind all others. Else the robot's own.
   std::optional<RobotModel> model;
   ActuatorSettings actuator;
+  SensorSettings sensor;
 
   ControllerSettings() = default;
   ControllerSettings(const ControlSettings& control, std::optional<ToolSettings> of = std::nullopt,
@@ -56,7 +58,7 @@ class Controller {
     Sample sequence;         // its coordinates
     Sample reference;        // n joints of the controller's model
     ToolError tool_error;    // at the tick's beginning; nothing in joint space
-    Eigen::VectorXd q, qd;   // n [rad], [rad/s]
+    Eigen::VectorXd q, qd;   // n [rad], [rad/s]; true, where the sensor is not ideal
     Eigen::VectorXd torque;  // n [N·m]
   };
 
@@ -83,7 +85,7 @@ class Controller {
  private:
   friend class Plugin;
 
-  void measure() noexcept;
+  void read_state() noexcept;
   void follow(Sample& joints) noexcept;
   void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
@@ -95,6 +97,7 @@ class Controller {
   Execution brake_;                 // n joints; leads to rest
   Eigen::VectorXd coming_to_rest_;  // n
   ComputedTorque law_;
+  Sensor sensor_;
   Actuator actuator_;
   Sample next_;  // n, reference at the end of the tick
   Status status_ = Status::following;

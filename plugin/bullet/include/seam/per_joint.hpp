@@ -1,0 +1,27 @@
+#pragma once
+
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace seam {
+
+/// A setting that is one number for all joints, or a number for each.
+class PerJoint {
+ public:
+  PerJoint(double all) : values_(Eigen::VectorXd::Constant(1, all)) {}
+  PerJoint(Eigen::VectorXd each) : values_(std::move(each)) {}
+
+  double operator()(Eigen::Index joint) const {
+    return values_.size() == 1 ? values_(0) : values_(joint);
+  }
+  /// For n joints.
+  Eigen::VectorXd each(Eigen::Index n) const {
+    return values_.size() == 1 ? Eigen::VectorXd::Constant(n, values_(0)) : values_;
+  }
+
+ private:
+  Eigen::VectorXd values_;
+};
+
+}  // namespace seam

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <seam/error.hpp>
+#include <seam/per_joint.hpp>
+
+namespace seam {
+
+/// A setting for each of a robot's joints.
+/// @throws Error  not as many as joints, or one that is not finite and ≥ 0
+inline Eigen::VectorXd not_negative(const std::string& what, const PerJoint& setting, int joints) {
+  Eigen::VectorXd each = setting.each(joints);
+  if (each.size() != joints)
+    throw Error(what, std::to_string(each.size()) + " numbers, must be " + std::to_string(joints) +
+                          ", one for each joint");
+  for (const double value : each)
+    if (!(std::isfinite(value) && value >= 0.0))
+      throw Error(what, std::to_string(value) + ", must be >= 0");
+  return each;
+}
+
+}  // namespace seam

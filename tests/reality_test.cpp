@@ -1,0 +1,220 @@
+// What stands between a controller's plan and the motion: friction, errors of the model, sensors, actuators in scenes.
+
+#include <cmath>
+#include <cstring>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <gmock/gmock.h>
+
+#include "scenes/friction.hpp"
+#include "scenes/play.hpp"
+#include "scenes/world.hpp"
+#include "tests/refusals.hpp"
+#include <seam/metrics.hpp>
+
+namespace seam {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double inertia = 0.2;  // [kg m²]
+constexpr double dt = 1e-3;
+
+// A wheel that turns about a vertical axis.
+RobotModel wheel() {
+  RobotModel model;
+  model.name = "wheel";
+  model.joints.resize(1);
+  model.bodies.resize(1);
+  model.joints[0].name = "turn";
+  model.joints[0].type = Joint::Type::continuous;
+  model.joints[0].lower = -INFINITY;
+  model.joints[0].upper = INFINITY;
+  model.joints[0].speed = model.joints[0].effort = INFINITY;
+  model.bodies[0].link = "wheel";
+  model.bodies[0].inertial.mass = 1.0;
+  model.bodies[0].inertial.inertia = Eigen::Vector3d(0.15, 0.15, inertia).asDiagonal();
+  model.bodies[0].collisions.resize(1);
+  model.bodies[0].collisions[0].size.setConstant(0.1);
+  return model;
+}
+
+// A wheel with friction.
+struct Spun {
+  explicit Spun(const FrictionSettings& settings, double speed)
+      : robot(wheel(), *world), friction(robot, 1, settings) {
+    robot.reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, speed));
+  }
+  void step(double torque = 0.0) {
+    friction.pre_tick(dt);
+    robot.multibody().addJointTorque(0, torque);
+    world->stepSimulation(dt, 0);
+  }
+  double speed() const { return robot.multibody().getJointVel(0); }
+
+  World world;
+  Robot robot;
+  Friction friction;
+};
+
+// Against ω exp(−bt/I), of first order in the tick.
+TEST(Friction, ViscousSlowsAWheelExponentially) {
+  FrictionSettings settings;
+  settings.viscous = 0.6;
+  Spun wheel(settings, 5.0);
+  for (int k = 0; k < 500; ++k) wheel.step();
+  EXPECT_NEAR(wheel.speed(), 5.0 * std::exp(-0.6 * 0.5 / inertia), 5e-3);
+  EXPECT_NEAR(wheel.speed(), 5.0 * std::pow(1.0 - 0.6 * dt / inertia, 500), 1e-9);
+}
+
+// It falls by c/I a second, stands after ωI/c seconds, and then stands still.
+TEST(Friction, CoulombStopsAWheelAndHoldsIt) {
+  FrictionSettings settings;
+  settings.coulomb = 0.5;
+  Spun wheel(settings, 2.0);
+  for (int k = 1; k <= 700; ++k) {
+    wheel.step();
+    EXPECT_NEAR(wheel.speed(), 2.0 - 0.5 / inertia * k * dt, 1e-9);
+  }
+  for (int k = 0; k < 400; ++k) wheel.step();
+  for (int k = 0; k < 400; ++k) {
+    wheel.step(0.499);
+    EXPECT_NEAR(wheel.speed(), 0.0, 1e-9);
+  }
+  for (int k = 0; k < 100; ++k) wheel.step(0.7);
+  EXPECT_NEAR(wheel.speed(), 0.2 / inertia * 0.1, 1e-9);
+}
+
+TEST(Friction, RefusesWhatCannotBe) {
+  World world;
+  Robot robot(wheel(), *world);
+  FrictionSettings settings;
+  settings.coulomb = -1.0;
+  EXPECT_EQ(test::refusal([&] { Friction(robot, 1, settings); }),
+            "friction: coulomb: -1.000000, must be >= 0");
+  settings.coulomb = 1.0;
+  RobotModel bare = wheel();
+  bare.bodies[0].collisions.clear();
+  Robot shapeless(bare, *world);
+  EXPECT_THAT(test::refusal([&] { Friction(shapeless, 1, settings); }),
+              HasSubstr("joint \"turn\": its link has no collision shape"));
+  EXPECT_EQ(world->getNumMultiBodyConstraints(), 0);
+}
+
+Scene line(const std::vector<std::string>& overrides) {
+  return Scene::read(std::string(SEAM_SCENES) + "/line.yaml", overrides);
+}
+
+Recording played(const std::vector<std::string>& overrides, Join method = Join::dmp3) {
+  const Scene scene = line(overrides);
+  return play(scene, method, scene.dt);
+}
+
+bool same_bits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+TEST(Reality, WithNothingWrongIsTheSameToTheBit) {
+  const Recording ideal = played({});
+  const Recording same =
+      played({"actuator={quantum: 0, rate: 1e300, lag: 0}", "friction={viscous: 0, coulomb: 0}",
+              "sensors={delay: 0, resolution: 0}", "model_error={mass: 0}"});
+  EXPECT_TRUE(same_bits(ideal.torque, same.torque));
+  EXPECT_TRUE(same_bits(ideal.q, same.q));
+}
+
+// A point mass that the controller does not know of pulls the arm down until K_p times its error holds it:
+// at rest M·Kp·Δq = −Jᵀmg, of which the elbow's share is measured by the torque that is commanded.
+TEST(Reality, APayloadIsHeldByTheFeedback) {
+  const Recording recording =
+      played({"model_error.payload={mass: 0.5, link: tool, at: [0, 0, 0.1]}", "settle=4"});
+  const Scene scene = line({"model_error.payload={mass: 0.5, link: tool, at: [0, 0, 0.1]}"});
+  const Eigen::Index last = recording.ticks() - 1;
+  const Eigen::VectorXd q = recording.q.row(last);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(7);
+  Eigen::VectorXd needed(7);
+  InverseDynamics(scene.simulated).torque(q, rest, rest, needed);
+  EXPECT_LT((recording.torque.row(last).transpose() - needed).norm(), 0.02);
+  Eigen::VectorXd known(7);
+  InverseDynamics(scene.robot).torque(q, rest, rest, known);
+  EXPECT_GT((needed - known).norm(), 1.0);
+}
+
+// Masses 10 % too large make all torques of the model 10 % too large.
+TEST(Reality, AMassErrorIsTheControllersAndNotBullets) {
+  const Scene scene = line({"model_error.mass=0.1"}), exact = line({});
+  const Eigen::VectorXd q = scene.start, zero = Eigen::VectorXd::Zero(7);
+  Eigen::VectorXd wrong(7), right(7), simulated(7);
+  InverseDynamics(scene.robot).torque(q, zero, q, wrong);
+  InverseDynamics(exact.robot).torque(q, zero, q, right);
+  InverseDynamics(scene.simulated).torque(q, zero, q, simulated);
+  EXPECT_LT((wrong - 1.1 * right).norm(), 1e-12 * right.norm());
+  EXPECT_EQ(simulated, right);
+}
+
+class RealityMoves : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealityMoves, TheArmFromItsReferenceAndStaysFinite) {
+  for (const Join method : all_joins) {
+    const RunMetrics metrics = measure(played({GetParam()}, method));
+    EXPECT_GT(metrics.tracking_max_rad, 1e-8) << to_string(method);
+    EXPECT_LT(metrics.tracking_max_rad, 0.5) << to_string(method);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, RealityMoves,
+                         testing::Values("actuator.lag=0.005", "actuator.quantum=0.1",
+                                         "actuator={effort_limit: yes, lag: 0.005, rate: 1000}",
+                                         "friction.viscous=2", "friction.coulomb={S2: 5, E1: 3}",
+                                         "sensors.delay=0.003", "sensors.resolution=1e-4",
+                                         "sensors={position_noise: 1e-4, velocity_noise: 0.01}",
+                                         "model_error.mass=-0.2"));
+
+// Where the torque may not jump, a method that makes it jump is left behind.
+TEST(Reality, JoinsDifferInTrackingBehindARateLimitOrALag) {
+  for (const char* actuator : {"actuator.rate=500", "actuator.lag=0.005"}) {
+    const double dmp2 = measure(played({actuator}, Join::dmp2)).tracking_after_join_max_rad;
+    for (const Join method : {Join::dmp2a, Join::dmp3, Join::dmp2j})
+      EXPECT_LT(measure(played({actuator}, method)).tracking_after_join_max_rad, 0.7 * dmp2)
+          << actuator << " " << to_string(method);
+  }
+}
+
+TEST(Reality, NoiseFollowsTheSeed) {
+  const char* noise = "sensors.position_noise=1e-4";
+  EXPECT_TRUE(same_bits(played({noise}).torque, played({noise}).torque));
+  EXPECT_FALSE(same_bits(played({noise}).torque, played({noise, "seed=3"}).torque));
+}
+
+struct Bad {
+  const char* name;
+  const char* text;
+  const char* message;
+};
+
+class RealityRefuses : public testing::TestWithParam<Bad> {};
+
+TEST_P(RealityRefuses, WithTheKey) {
+  EXPECT_THAT(test::refusal([] { line({GetParam().text}); }), HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , RealityRefuses,
+    testing::Values(
+        Bad{"NegativeLag", "actuator.lag=-1", "key \"lag\": -1, must be >= 0"},
+        Bad{"NoRate", "actuator.rate=0", "key \"rate\": 0, must be > 0"},
+        Bad{"UnknownOfActuator", "actuator.gain=1", "key \"gain\": not known here"},
+        Bad{"UnknownJoint", "friction.coulomb={E9: 1}", "key \"E9\": robot \"pa10\": no joint"},
+        Bad{"NegativeFriction", "friction.viscous={E1: -1}", "key \"E1\": -1, must be >= 0"},
+        Bad{"DelayOfNoTime", "sensors.delay=nan", "key \"delay\": \"nan\", must be a finite"},
+        Bad{"NegativeNoise", "sensors.position_noise=-1", "\"position_noise\": -1, must be >= 0"},
+        Bad{"NoMassAtAll", "model_error.mass=-1", "key \"mass\": -1, must be > -1"},
+        Bad{"NoLink", "model_error.payload={mass: 1}", "needs the key \"link\""},
+        Bad{"LinkThatStands", "model_error.payload={mass: 1, link: base}", "a link that moves"},
+        Bad{"NegativePayload", "model_error.payload={mass: -1, link: tool}", "\"mass\": -1"}),
+    test::by_name);
+
+}  // namespace
+}  // namespace seam
