@@ -76,6 +76,10 @@ std::vector<Column> columns(const Recording& recording) {
                    &M::tool_tracking_rms_rad));
   add(tool, metric("tool_tracking_max_rad", "tool tracking, max [rad]", "{:.1e}",
                    &M::tool_tracking_max_rad));
+  add(tool, metric("tool_tracking_after_join_max_m", "tool tracking, max after a join [m]",
+                   "{:.1e}", &M::tool_tracking_after_join_max_m));
+  add(tool, metric("tool_tracking_after_join_max_rad", "tool tracking, max after a join [rad]",
+                   "{:.1e}", &M::tool_tracking_after_join_max_rad));
   add(tool, metric("deviation_peak_m", "deviation, peak of the tool [m]", "{:.3f}",
                    &M::deviation_peak_m));
   add(true,
@@ -100,6 +104,13 @@ std::vector<JoinColumn> join_columns(const Recording& recording) {
     list.push_back({"acceleration_jump_m_s2", "acceleration jump [m/s²]", "{:.2g}",
                     &J::acceleration_jump_m_s2});
   list.push_back({"tracking_max_rad", "tracking [rad]", "{:.1e}", &J::tracking_max_rad});
+  if (recording.in_task_space()) {
+    list.push_back({"tool_tracking_max_m", "tool tracking [m]", "{:.1e}", &J::tool_tracking_max_m});
+    list.push_back(
+        {"tool_tracking_max_rad", "tool tracking [rad]", "{:.1e}", &J::tool_tracking_max_rad});
+  }
+  list.push_back({"deviation_peak_rad", "deviation [rad]", "{:.3f}", &J::deviation_peak_rad});
+  list.push_back({"deviation_faded_s", "faded after [s]", "{:.2f}", &J::deviation_faded_s});
   return list;
 }
 

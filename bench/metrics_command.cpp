@@ -1,5 +1,6 @@
 #include "bench/metrics_command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -18,8 +19,9 @@ namespace seam {
 namespace {
 
 struct Options {
-  std::string recording, half, dmp2, urdf;
+  std::string recording, half, compared, urdf;
   std::vector<double> joins;  // [s]
+  MetricSettings settings;
   bool json = false;
 };
 
@@ -30,9 +32,9 @@ Recording read(const std::string& path, const std::vector<double>& joins) {
   const double end = recording.time(recording.ticks() - 1);
   for (const double time : joins) {
     if (!(time >= recording.time(0) && time <= end))
-      throw Error("--join", fmt::format("{} s, must be within the recording, {} to {} s", time,
+      throw Error("--join", fmt::format("{} s, must be within {}, {} to {} s", time, path,
                                         recording.time(0), end));
-    recording.joins.push_back(recording.estimated_join(time, 0));
+    recording.joins.push_back({time});
   }
   return recording;
 }
@@ -44,8 +46,15 @@ void set_limits(const std::string& urdf, Recording& recording) {
         robot.joints[static_cast<std::size_t>(robot.joint(recording.joints[i]))].effort;
 }
 
+bool measured(const RunMetrics& metrics, const JoinColumn& column) {
+  return std::any_of(metrics.joins.begin(), metrics.joins.end(),
+                     [&](const JoinMetrics& join) { return !std::isnan(join.*column.of); });
+}
+
 std::string joins_table(const Run& run) {
-  const std::vector<JoinColumn> list = join_columns(run.recording);
+  std::vector<JoinColumn> list;
+  for (const JoinColumn& column : join_columns(run.recording))
+    if (measured(run.metrics, column)) list.push_back(column);
   Rows rows(1, {"join [s]", "joint"});
   for (const JoinColumn& column : list) rows[0].push_back(column.heading);
   for (const JoinMetrics& join : run.metrics.joins) {
@@ -58,44 +67,81 @@ std::string joins_table(const Run& run) {
   return markdown(rows, 2);
 }
 
-std::string run_table(const Run& run, std::string& unmeasured) {
+// What a metric needs and the recording lacks; the first that fits, of the names that begin so.
+std::string lacking(const std::string& metric, const Recording& recording, const Options& options) {
+  const struct {
+    const char* metrics;
+    bool is_lacking;
+    const char* what;
+  } needs[] = {
+      {"torque", recording.torque.size() == 0, "columns torque.<joint>"},
+      {"saturated", recording.torque.size() == 0, "columns torque.<joint>"},
+      {"saturated", true, "the joints' effort limits (--urdf)"},
+      {"acceleration", recording.ref_acc.size() + recording.tool_acc.size() == 0,
+       "columns ref_acc.<joint>"},
+      {"jerk", true, "columns ref_acc.<joint>"},
+      {"tracking", recording.ref.size() == 0 || recording.q.size() == 0,
+       "columns ref.<joint> and q.<joint>"},
+      {"tool_tracking", recording.tool_error_m.size() == 0,
+       "columns tool_error_m and tool_error_rad"},
+      {"deviation", options.compared.empty(), "another run (--compare)"},
+      {"deviation_faded", true, "a longer recording: it has not faded at the end"},
+      {"deviation", true, "columns ref.<joint>"},
+      {"", recording.joins.empty(), "a join (--join, or a column switch that changes)"},
+      {"torque_jump_percent", options.urdf.empty(), "the joints' effort limits (--urdf)"},
+      {"torque_jump_order", options.half.empty(), "the same run at half the tick (--half)"},
+      {"", true, "more ticks to either side of every join"},
+  };
+  for (const auto& need : needs)
+    if (need.is_lacking && metric.rfind(need.metrics, 0) == 0) return need.what;
+  return {};
+}
+
+std::string run_table(const Run& run, const Options& options) {
   Rows rows{{"metric", "value"}};
+  std::vector<std::pair<std::string, std::string>> unmeasured;  // what is lacking, metrics
   for (const Column& column : columns(run.recording)) {
     const double value = column.of(run);
-    if (std::isnan(value))
-      unmeasured += (unmeasured.empty() ? "" : ", ") + column.name;
-    else
+    if (!std::isnan(value)) {
       rows.push_back({column.heading, shown(value, column.format)});
+      continue;
+    }
+    const std::string lack = lacking(column.name, run.recording, options);
+    const auto same = std::find_if(unmeasured.begin(), unmeasured.end(),
+                                   [&](const auto& other) { return other.first == lack; });
+    if (same == unmeasured.end())
+      unmeasured.emplace_back(lack, column.name);
+    else
+      same->second += ", " + column.name;
   }
-  return markdown(rows, 1);
+  std::string text = rows.size() > 1 ? markdown(rows, 1) : "";
+  for (const auto& [lack, metrics] : unmeasured)
+    text += fmt::format("\nnot measured, needs {}:\n  {}\n", lack, metrics);
+  return text;
+}
+
+void print(const Run& run, const Options& options) {
+  const Recording& recording = run.recording;
+  fmt::print("{}: {} joints, {} ticks of {:g} ms, {} join{}\n\n", options.recording,
+             recording.joints.size(), recording.ticks(), 1e3 * recording.dt(),
+             recording.joins.size(), recording.joins.size() == 1 ? "" : "s");
+  if (!recording.joins.empty()) fmt::print("{}\n", joins_table(run));
+  fmt::print("{}", run_table(run, options));
 }
 
 void measure_recording(const Options& options) {
   Run run;
   run.recording = read(options.recording, options.joins);
   if (!options.urdf.empty()) set_limits(options.urdf, run.recording);
-  std::optional<Recording> half, dmp2;
+  std::optional<Recording> half, compared;
   if (!options.half.empty()) half = read(options.half, options.joins);
-  if (!options.dmp2.empty()) dmp2 = read(options.dmp2, options.joins);
-  const double ratio = half ? run.recording.dt() / half->dt() : 2.0;
-  if (std::abs(ratio - 2.0) > 1e-3)
-    throw Error(options.half, fmt::format("a tick of {:g} s, must be {:g} s, half of the other's",
-                                          half->dt(), 0.5 * run.recording.dt()));
-  run.metrics = measure(run.recording, {half ? &*half : nullptr, dmp2 ? &*dmp2 : nullptr});
-  if (options.json) {
-    nlohmann::ordered_json json{{"format", 1}};
-    json.update(to_json(run));
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  const Recording& recording = run.recording;
-  fmt::print("{}: {} joints, {} ticks of {:g} ms, {} joins\n\n", options.recording,
-             recording.joints.size(), recording.ticks(), 1e3 * recording.dt(),
-             recording.joins.size());
-  if (!recording.joins.empty()) fmt::print("{}\n", joins_table(run));
-  std::string unmeasured;
-  fmt::print("{}\n", run_table(run, unmeasured));
-  if (!unmeasured.empty()) fmt::print("not measured: {}\n", unmeasured);
+  if (!options.compared.empty()) compared = read(options.compared, options.joins);
+  run.metrics = measure(run.recording, {half ? &*half : nullptr, compared ? &*compared : nullptr},
+                        options.settings);
+  if (!options.json) return print(run, options);
+  nlohmann::ordered_json json{{"format", 1}, {"recording", options.recording}};
+  json.update(to_json(run));
+  fmt::print("{}\n", json.dump(2));
 }
 
 }  // namespace
@@ -106,8 +152,8 @@ void add_metrics_command(CLI::App& app) {
       *app.add_subcommand("metrics", "measure torque jumps and more on a recording");
   command
       .add_option("recording", options->recording,
-                  "CSV: time [s] first, torque.<joint> [N.m]; optional q.<joint>, ref.<joint>, "
-                  "ref_acc.<joint>, switch")
+                  "CSV: time [s] first, at even ticks; then any of torque.<joint> [N.m], "
+                  "q.<joint>, ref.<joint> [rad], ref_acc.<joint> [rad/s2], switch")
       ->required();
   command
       .add_option("--join", options->joins,
@@ -116,12 +162,23 @@ void add_metrics_command(CLI::App& app) {
       ->delimiter(',');
   command.add_option("--half", options->half,
                      "the same run recorded at half the tick: gives the order of the jumps");
-  command.add_option("--dmp2", options->dmp2,
+  command.add_option("--compare", options->compared,
                      "the same run with dmp2, or any other: gives the deviation from it");
   command.add_option("--urdf", options->urdf, "the robot: gives the joints' effort limits");
+  MetricSettings& settings = options->settings;
+  command
+      .add_option("--line-ticks", settings.line_ticks,
+                  "ticks of the lines that are carried to a join; noise of 1 N.m leaves 3.1 N.m of "
+                  "3, 0.7 N.m of 20")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  command
+      .add_option("--after-join", settings.after_join, "[s] in which tracking counts as the join's")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.add_flag("--json", options->json, "print JSON; null stands for what is not measured");
   command.footer(
-      "Example: seam metrics results/line/dmp3.csv --join 1.25 --dmp2 results/line/dmp2.csv");
+      "Example: seam metrics results/line/dmp3.csv --join 1.25 --compare results/line/dmp2.csv");
   command.callback([options] { measure_recording(*options); });
 }
 

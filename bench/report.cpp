@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <LinearMath/btScalar.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/columns.hpp"
@@ -26,7 +27,9 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
       entry.update(to_json(run));
       runs.push_back(std::move(entry));
     }
-  return {{"format", 1}, {"versions", versions_json(seam_version)}, {"runs", runs}};
+  return {{"format", 1},
+          {"versions", {{"seam", seam_version}, {"bullet", BT_BULLET_VERSION}}},
+          {"runs", runs}};
 }
 
 void make_folder(const std::filesystem::path& dir) {

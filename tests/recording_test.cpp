@@ -56,7 +56,7 @@ TEST(Recording, OfTimeAndTorqueAloneIsMeasuredAsFarAsItGoes) {
   for (int k = 0; k < 20; ++k) text += std::to_string(0.01 * k) + (k < 10 ? ",0\n" : ",1.5\n");
   Recording recording = Recording::read(folder.write("r.csv", text));
   EXPECT_TRUE(recording.joins.empty());
-  recording.joins.push_back(recording.estimated_join(0.1, 0));
+  recording.joins.push_back({0.1});
   const RunMetrics metrics = measure(recording);
   EXPECT_NEAR(metrics.torque_jump_nm, 1.5, 1e-12);
   EXPECT_NEAR(metrics.torque_rate_peak_nm_s, 150.0, 1e-9);
@@ -67,16 +67,31 @@ TEST(Recording, OfTimeAndTorqueAloneIsMeasuredAsFarAsItGoes) {
     EXPECT_TRUE(std::isnan(unmeasured));
 }
 
-TEST(Recording, EstimatesTheStepInAccelerationAtAJoin) {
-  Recording recording = some_recording({"x", "y", "z"});
-  recording.ref_acc.setZero();
-  recording.ref_acc.col(1).tail(10).setConstant(-3.0);
-  recording.tool_acc.setZero();
-  recording.tool_acc.col(2).tail(10).setConstant(0.5);
-  const RecordedJoin join = recording.estimated_join(0.1, 1);
-  EXPECT_NEAR(join.acceleration_jump, 3.0, 1e-12);
-  EXPECT_NEAR(join.linear_jump, 0.5, 1e-12);
-  EXPECT_TRUE(std::isnan(recording.estimated_join(0.01, 1).acceleration_jump));
+// What `seam rollout` writes.
+TEST(Recording, OfReferencesAloneIsThatOfJointsOrOfATool) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& header) {
+    return Recording::read(folder.write("r.csv", header + "\n0,-1,1,2,3\n0.1,0,1,2,3\n"));
+  };
+  const Recording joints = read("time,switch,ref.a,ref_vel.a,ref_acc.a");
+  EXPECT_EQ(joints.joints, std::vector<std::string>{"a"});
+  EXPECT_EQ(joints.ref_acc(0, 0), 3.0);
+  EXPECT_FALSE(joints.in_task_space());
+  EXPECT_EQ(joints.joins.at(0).primitive, 0);
+  const Recording tool = read("time,switch,ref.x,ref.y,ref.z");
+  EXPECT_TRUE(tool.joints.empty());
+  EXPECT_EQ(tool.tool_ref(1, 2), 3.0);
+}
+
+// A clock in microseconds, of a recorder at 3 kHz.
+TEST(Recording, TakesAClockThatIsWrittenWithFewDigits) {
+  const TempFolder folder;
+  std::string text = "time,torque.a\n";
+  for (int k = 0; k < 3000; ++k) text += std::to_string(k / 3000.0) + (k < 1500 ? ",0\n" : ",1\n");
+  Recording recording = Recording::read(folder.write("r.csv", text));
+  EXPECT_NEAR(recording.dt(), 1.0 / 3000.0, 1e-9);
+  recording.joins.push_back({0.5});
+  EXPECT_NEAR(measure(recording).torque_jump_nm, 1.0, 1e-12);
 }
 
 class RecordingRefuses : public testing::TestWithParam<BadFile> {};
@@ -92,16 +107,21 @@ INSTANTIATE_TEST_SUITE_P(
     , RecordingRefuses,
     testing::Values(
         BadFile{"NoTime", "time,", "clock,", ":1: column \"clock\", must be time [s]"},
-        BadFile{"NoTorque", "torque.a,torque.b", "x,y",
-                ":1: needs a column torque.<joint> [N·m] for each joint"},
-        BadFile{"PositionOfOneJoint", "q.b", "qb", ": needs the column \"q.b\", as of the others"},
-        BadFile{"PositionOfTheOther", "q.a", "qa", ": needs a column \"q.a\", as of the others"},
+        BadFile{"NoColumnOfARecording", "q.a,q.b,torque.a,torque.b", "a,b,c,d",
+                ":1: needs columns torque.<joint> [N·m], or others of a recording"},
+        BadFile{"PositionOfOneJoint", "q.b", "qb",
+                ":1: needs the column \"q.b\", as of the others"},
+        BadFile{"PositionOfTheOther", "q.a", "qa",
+                ":1: needs the column \"q.a\", as of the others"},
         BadFile{"ReferenceOfNoJoint", "q.a,q.b", "ref.c,q",
-                ":1: column \"ref.c\" is of none of the joints that have a torque"},
+                ":1: reference of \"c\", must be of a joint that has q, qd or torque, or all be"},
         BadFile{"UnevenTime", "\n0.1,", "\n0.05,", ":3: column \"time\": a tick of 0.05"},
-        BadFile{"TimeThatFalls", "\n0.2,", "\n0.0,", ":3: column \"time\": a tick of 0.1"},
+        BadFile{"TimeThatFalls", "\n0.2,", "\n0.0,",
+                ":4: column \"time\": a tick of -0.1 s, must be 0.1 s as most are"},
         BadFile{"TimeThatStands", "0.1,0,1,2,3,4\n0.2,1,1,2,3,4\n", "0,0,1,2,3,4\n",
-                ":3: column \"time\": a tick of 0.000000 s"},
+                ":3: column \"time\": a tick of 0 s, must be > 0"},
+        BadFile{"SwitchBetweenPrimitives", "0.2,1,", "0.2,0.5,",
+                ":4: column \"switch\": 0.5, must be a whole number"},
         BadFile{"OneRow", "0.1,0,1,2,3,4\n0.2,1,1,2,3,4\n", "", ": 1 row, must be at least 2"},
         BadFile{"NotANumber", "0.2,1,1", "0.2,1,nan", ":4: column \"q.a\": \"nan\", must be"},
         BadFile{"FieldMissing", "0.2,1,1", "0.2,1", ":4: 5 fields, must be 6"}),

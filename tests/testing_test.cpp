@@ -54,12 +54,23 @@ TEST(TorqueIsContinuousAt, NamesJointSizeTimeAndLimit) {
 
 TEST(TorqueIsContinuousAt, FailsWhereItCannotBeMeasured) {
   EXPECT_THAT(said(TorqueIsContinuousAt(0.01).within(5.0), stepping()),
-              HasSubstr("cannot be measured at 0.01 s: needs four ticks to either side"));
+              HasSubstr("cannot be measured at 0.01 s: needs 4 finite ticks to either side"));
   EXPECT_THAT(stepping(), Not(TorqueIsContinuousAt(7.0).within(5.0)));
-  EXPECT_THAT(Recording(), Not(TorqueIsContinuousAt(0.5).within(5.0)));
+  EXPECT_EQ(said(TorqueIsContinuousAt(0.5).within(5.0), Recording()),
+            "torque cannot be measured: it is not in the recording");
   Recording broken = stepping();
   broken.torque(52, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(broken, Not(TorqueIsContinuousAt(0.5).within(5.0)));
+}
+
+TEST(TorqueIsContinuousAt, FitsLongerLinesToNoise) {
+  Recording noisy = stepping();
+  noisy.torque.setZero();
+  noisy.torque.col(1).segment(48, 1).setConstant(0.4);
+  EXPECT_THAT(noisy, Not(TorqueIsContinuousAt(0.5).within(0.5)));
+  EXPECT_THAT(noisy, TorqueIsContinuousAt(0.5).within(0.5).fitting(20));
+  EXPECT_THAT(said(TorqueIsContinuousAt(0.1).within(0.5).fitting(20), noisy),
+              HasSubstr("needs 21 finite ticks to either side"));
 }
 
 TEST(TorqueIsContinuousAtAllJoins, NamesTheWorst) {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
+#include "shown.hpp"
 #include <seam/error.hpp>
-#include <seam/metrics.hpp>
 #include <seam/recording.hpp>
 #include <seam/table.hpp>
 
@@ -47,17 +47,25 @@ class Columns {
   Table table_;
 };
 
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 // Takes the columns of a file one after the other.
 class Reader {
  public:
   Reader(const Table& table, const std::string& path)
       : table_(table), path_(path), taken_(table.columns.size(), false) {}
 
-  /// Names behind a prefix, in the order of the columns.
-  std::vector<std::string> names(const std::string& prefix) const {
-    std::vector<std::string> names;
-    for (const std::string& column : table_.columns)
-      if (column.rfind(prefix, 0) == 0) names.push_back(column.substr(prefix.size()));
+  /// Names behind any of some prefixes, each once, in the order of the prefixes and columns.
+  Names names(const Names& prefixes) const {
+    Names names;
+    for (const std::string& prefix : prefixes)
+      for (const std::string& column : table_.columns)
+        if (column.rfind(prefix, 0) == 0 && !contains(names, column.substr(prefix.size())))
+          names.push_back(column.substr(prefix.size()));
     return names;
   }
   /// Empty where there is no such column.
@@ -71,17 +79,19 @@ class Reader {
   /// All of a kind or none.
   Eigen::MatrixXd take(const std::string& prefix, const std::vector<std::string>& names) {
     Eigen::MatrixXd values(table_.values.rows(), static_cast<Eigen::Index>(names.size()));
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (const Eigen::VectorXd column = take(prefix + names[i]); column.size() > 0) {
+    std::string missing;
+    bool any = false;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Eigen::VectorXd column = take(prefix + names[i]);
+      if (column.size() > 0)
         values.col(static_cast<Eigen::Index>(i)) = column;
-        ++found;
-      } else if (found > 0) {
-        throw Error(path_, "needs the column \"" + prefix + names[i] + "\", as of the others");
-      }
-    if (found == 0) return {};
-    if (found < names.size())
-      throw Error(path_, "needs a column \"" + prefix + names[0] + "\", as of the others");
+      else if (missing.empty())
+        missing = prefix + names[i];
+      any = any || column.size() > 0;
+    }
+    if (!any) return {};
+    if (!missing.empty())
+      throw Error(path_ + ":1", "needs the column \"" + missing + "\", as of the others");
     return values;
   }
   std::vector<Signal> rest() const {
@@ -98,31 +108,70 @@ class Reader {
   std::vector<bool> taken_;
 };
 
-constexpr double even = 1e-3;  // share of a tick by which ticks may differ
+constexpr double even = 1e-2;  // share of a tick by which ticks may differ
 
+// As most are, so that a tick that is missing is found.
 void require_even(const Eigen::VectorXd& time, const std::string& path) {
-  if (time.size() < 2) throw Error(path, "1 row, must be at least 2");
-  const double dt = (time(time.size() - 1) - time(0)) / static_cast<double>(time.size() - 1);
-  for (Eigen::Index i = 1; i < time.size(); ++i)
-    if (!(dt > 0.0 && std::abs(time(i) - time(i - 1) - dt) <= even * dt))
+  const Eigen::Index N = time.size();
+  if (N < 2) throw Error(path, "1 row, must be at least 2");
+  const Eigen::VectorXd ticks = time.tail(N - 1) - time.head(N - 1);
+  Eigen::VectorXd sorted = ticks;
+  std::nth_element(sorted.begin(), sorted.begin() + (N - 1) / 2, sorted.end());
+  const double dt = sorted((N - 1) / 2);
+  for (Eigen::Index i = 0; i < N - 1; ++i)
+    if (!(dt > 0.0 && std::abs(ticks(i) - dt) <= even * dt))
+      throw Error(path + ":" + std::to_string(i + 3),
+                  "column \"time\": a tick of " + shown(ticks(i)) + " s, must be " +
+                      (dt > 0.0 ? shown(dt) + " s as most are" : "> 0"));
+}
+
+Eigen::VectorXi whole_numbers(const Eigen::VectorXd& column, const std::string& path) {
+  for (Eigen::Index i = 0; i < column.size(); ++i)
+    if (!(column(i) == std::floor(column(i)) && std::abs(column(i)) < 1e9))
       throw Error(path + ":" + std::to_string(i + 2),
-                  "column \"time\": a tick of " + std::to_string(time(i) - time(i - 1)) +
-                      " s, must be " + std::to_string(dt) + " s as on the whole");
+                  "column \"switch\": " + shown(column(i)) + ", must be a whole number");
+  return column.cast<int>();
+}
+
+bool are_a_tools(const Names& names) {
+  return names == Names{"x", "y", "z"} || names == Names{"x", "y", "z", "rx", "ry", "rz"};
+}
+
+// Those that have a state or a torque, else those that have a reference. Other references are of a tool's coordinates.
+void name_joints(const Reader& reader, const std::string& path, Recording& recording) {
+  recording.joints = reader.names({"torque.", "q.", "qd."});
+  Names referred = reader.names({"ref.", "ref_vel.", "ref_acc."});
+  if (recording.joints.empty() && !are_a_tools(referred)) recording.joints.swap(referred);
+  for (const std::string& name : referred)
+    if (!contains(recording.joints, name)) recording.coordinates.push_back(name);
+  if (recording.in_task_space() && !are_a_tools(recording.coordinates))
+    throw Error(path + ":1", "reference of \"" + recording.coordinates[0] +
+                                 "\", must be of a joint that has q, qd or torque, or all be of a "
+                                 "tool's x y z, or x y z rx ry rz");
+  if (recording.joints.empty() && recording.coordinates.empty())
+    throw Error(path + ":1", "needs columns torque.<joint> [N·m], or others of a recording");
+  recording.effort.setConstant(static_cast<Eigen::Index>(recording.joints.size()),
+                               std::numeric_limits<double>::quiet_NaN());
+}
+
+void take_joints(Reader& reader, Recording& recording) {
+  recording.torque = reader.take("torque.", recording.joints);
+  recording.ref = reader.take("ref.", recording.joints);
+  recording.ref_vel = reader.take("ref_vel.", recording.joints);
+  recording.ref_acc = reader.take("ref_acc.", recording.joints);
+  recording.q = reader.take("q.", recording.joints);
+  recording.qd = reader.take("qd.", recording.joints);
+}
+
+void take_tool(Reader& reader, Recording& recording) {
+  recording.tool_ref = reader.take("ref.", recording.coordinates);
+  recording.tool_vel = reader.take("ref_vel.", recording.coordinates);
+  recording.tool_acc = reader.take("ref_acc.", recording.coordinates);
+  recording.tool_error_m = reader.take("tool_error_m");
+  recording.tool_error_rad = reader.take("tool_error_rad");
 }
 
 }  // namespace
-
-RecordedJoin Recording::estimated_join(double at, int primitive) const {
-  const auto largest = [&](const Eigen::MatrixXd& acceleration) {
-    if (acceleration.size() == 0) return unknown;
-    const Eigen::VectorXd size = jump(time, acceleration, at).cwiseAbs();
-    return size.allFinite() ? size.maxCoeff() : unknown;
-  };
-  RecordedJoin join{at, primitive, largest(ref_acc), 0.0};
-  if (in_task_space())
-    join.linear_jump = tool_acc.size() > 0 ? largest(tool_acc.leftCols<3>()) : unknown;
-  return join;
-}
 
 Recording Recording::read(const std::string& path) {
   const Table table = Table::read(path);
@@ -130,36 +179,17 @@ Recording Recording::read(const std::string& path) {
     throw Error(path + ":1", "column \"" + table.columns[0] + "\", must be time [s]");
   Reader reader(table, path);
   Recording recording;
+  recording.source = path;
   recording.time = reader.take("time");
   require_even(recording.time, path);
-  recording.joints = reader.names("torque.");
-  const auto n = static_cast<Eigen::Index>(recording.joints.size());
-  if (n == 0) throw Error(path + ":1", "needs a column torque.<joint> [N·m] for each joint");
-  recording.effort.setConstant(n, unknown);
-  recording.torque = reader.take("torque.", recording.joints);
-  recording.ref = reader.take("ref.", recording.joints);
-  recording.ref_vel = reader.take("ref_vel.", recording.joints);
-  recording.ref_acc = reader.take("ref_acc.", recording.joints);
-  recording.q = reader.take("q.", recording.joints);
-  recording.qd = reader.take("qd.", recording.joints);
-  for (const std::string& name : reader.names("ref."))
-    if (std::find(recording.joints.begin(), recording.joints.end(), name) == recording.joints.end())
-      recording.coordinates.push_back(name);
-  if (recording.in_task_space() && recording.coordinates.size() < 3)
-    throw Error(path + ":1", "column \"ref." + recording.coordinates[0] +
-                                 "\" is of none of the joints that have a torque");
-  recording.tool_ref = reader.take("ref.", recording.coordinates);
-  recording.tool_vel = reader.take("ref_vel.", recording.coordinates);
-  recording.tool_acc = reader.take("ref_acc.", recording.coordinates);
-  recording.tool_error_m = reader.take("tool_error_m");
-  recording.tool_error_rad = reader.take("tool_error_rad");
-  const Eigen::VectorXd running = reader.take("switch");
-  recording.running = running.cast<int>();
+  recording.running = whole_numbers(reader.take("switch"), path);
+  name_joints(reader, path, recording);
+  take_joints(reader, recording);
+  take_tool(reader, recording);
   recording.signals = reader.rest();
-  for (Eigen::Index k = 1; k < running.size(); ++k)
-    if (running(k) != running(k - 1))
-      recording.joins.push_back(
-          recording.estimated_join(recording.time(k), static_cast<int>(running(k))));
+  for (Eigen::Index k = 1; k < recording.running.size(); ++k)
+    if (recording.running(k) != recording.running(k - 1))
+      recording.joins.push_back({recording.time(k), recording.running(k)});
   return recording;
 }
 
@@ -176,10 +206,8 @@ void Recording::write(const std::string& path) const {
   columns.add("ref.", coordinates, tool_ref);
   columns.add("ref_vel.", coordinates, tool_vel);
   columns.add("ref_acc.", coordinates, tool_acc);
-  if (in_task_space()) {
-    columns.add("tool_error_m", tool_error_m);
-    columns.add("tool_error_rad", tool_error_rad);
-  }
+  if (tool_error_m.size() > 0) columns.add("tool_error_m", tool_error_m);
+  if (tool_error_rad.size() > 0) columns.add("tool_error_rad", tool_error_rad);
   for (const Signal& signal : signals) columns.add(signal.name, signal.values);
   columns.table().write(path);
 }

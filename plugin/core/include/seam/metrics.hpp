@@ -9,38 +9,53 @@
 
 namespace seam {
 
+/// Not measured.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 /// Step of each column of a signal at a time: the difference between its two one-sided limits. A
-/// straight line is fitted to the three ticks that end two before the join, another to the three
-/// that begin two after it, and both are carried to the join. A step in the signal is found whole;
-/// a continuous signal leaves an error of order dt² (of order dt where it has a kink and the time of
-/// the join is off by a part of a tick). White noise of standard deviation s leaves one of 3.1 s.
-/// @param time    [s] N, even
-/// @param signal  N × n
-/// @param at      [s]
-/// @return        n; NaN where the signal does not reach four ticks to either side
-Eigen::VectorXd jump(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal, double at);
+/// straight line is fitted to the n ticks that end two before the join, another to the n that begin
+/// two after it, and both are carried to the join, c = (n + 3)/2 ticks from the middle of each. A
+/// step in the signal is found whole. What else is left, at a join on a tick:
+///   ½(c² − (n² − 1)/12)·dt² times the change in curvature (n = 3: 4.2 dt²): order 2;
+///   a·dt times the change in slope, where the join's time is off by a ticks: order 1;
+///   of white noise s√(2/n + 24c²/(n(n² − 1))), if s is its standard deviation (n = 3: 3.1 s; n = 20: 0.7 s).
+/// @param time        [s] N, even
+/// @param signal      N × columns
+/// @param at          [s]
+/// @param line_ticks  n ≥ 2; more than 3 for a noisy signal
+/// @return            one per column; NaN where the signal does not reach n + 1 ticks to either side
+Eigen::VectorXd jump(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal, double at,
+                     int line_ticks = 3);
 
 /// Order of a jump in dt: log₂(jump at dt / jump at dt/2). About 0 for a step, 1 for a kink whose time is
 /// off, 2 for a smooth signal.
 double jump_order(double at_dt, double at_half_dt);
 
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Time after a join in which tracking counts as the join's [s].
-inline constexpr double after_join = 0.2;
-/// Share of its peak below which a deviation has faded.
-inline constexpr double faded_share = 0.05;
+struct MetricSettings {
+  int line_ticks = 3;  // of `jump`
+  double after_join =
+      0.2;  // [s] in which tracking counts as the join's, at most until the next join
+  double faded_share = 0.05;  // of its peak, below which a deviation has faded
+};
 
 /// What a join does to the torque. NaN: cannot be measured, or not without what was not given.
 struct JoinMetrics {
-  double time = 0.0;                          // [s]
-  int joint = -1;                             // that of torque_jump_nm
-  double torque_jump_nm = unknown;            // [N·m] largest |jump| over joints
-  double torque_jump_percent = unknown;       // [%] of the joint's effort limit, largest over joints
-  double torque_jump_order = unknown;         // log₂ of its ratio between dt and dt/2
-  double acceleration_jump_rad_s2 = unknown;  // [rad/s²] of the reference, exact one-sided values
-  double acceleration_jump_m_s2 = unknown;    // [m/s²] likewise, of a tool's x y z
-  double tracking_max_rad = unknown;  // [rad] largest |ref − q| from the join to after_join later, or to the next join
+  double time = 0.0;                     // [s]
+  int joint = -1;                        // that of torque_jump_nm
+  double torque_jump_nm = unknown;       // [N·m] largest |jump| over joints
+  double torque_jump_percent = unknown;  // [%] of the joint's effort limit, largest over joints
+  double torque_jump_order = unknown;    // log₂ of its ratio between dt and dt/2
+  /// [rad/s²] of the reference, largest over joints, in task space over the tool's rx ry rz: as recorded (exact), else
+  /// the `jump` of its acceleration
+  double acceleration_jump_rad_s2 = unknown;
+  double acceleration_jump_m_s2 = unknown;  // [m/s²] likewise, over the tool's x y z
+  double tracking_max_rad = unknown;  // [rad] largest |ref − q| from the join to after_join later
+  double tool_tracking_max_m = unknown;    // [m] likewise, distance of the tool from its reference
+  double tool_tracking_max_rad = unknown;  // [rad] likewise, angle between them
+  double deviation_peak_rad =
+      unknown;  // [rad] largest |ref − dmp2's ref| from the join to the next, or to the end
+  double deviation_faded_s =
+      unknown;  // [s] from the join until it stays below faded_share of that; NaN: it does not
 };
 
 /// A whole run. Derivatives are differences between neighbouring ticks, xₖ₊₁ − xₖ over dt. NaN as above.
@@ -52,20 +67,25 @@ struct RunMetrics {
   double acceleration_jump_rad_s2 = unknown;
   double acceleration_jump_m_s2 = unknown;
   double torque_rate_peak_nm_s = unknown;  // [N·m/s] largest |Δtorque|/dt over joints and ticks
-  double torque_rate_rms_nm_s = unknown;   // √mean((Δtorque/dt)²) of the joint where it is largest
-  double jerk_peak_rad_s3 = unknown;       // [rad/s³] of the reference acceleration, likewise
+  double torque_rate_rms_nm_s = unknown;  // √mean((Δtorque/dt)²) of the joint where it is largest
+  double jerk_peak_rad_s3 = unknown;      // [rad/s³] of the reference acceleration, likewise
   double jerk_rms_rad_s3 = unknown;
-  double tracking_max_rad = unknown;             // [rad] largest |ref − q| over joints and ticks
-  double tracking_rms_rad = unknown;             // √mean(|ref − q|²) of the joint where it is largest
+  double tracking_max_rad = unknown;  // [rad] largest |ref − q| over joints and ticks
+  double tracking_rms_rad = unknown;  // √mean(|ref − q|²) of the joint where it is largest
   double tracking_after_join_max_rad = unknown;  // worst over the joins
   double tool_tracking_max_m = unknown;  // [m] largest distance of the tool from its reference
   double tool_tracking_rms_m = unknown;
   double tool_tracking_max_rad = unknown;  // [rad] likewise, angle of the rotation between them
   double tool_tracking_rms_rad = unknown;
-  double saturated_share = unknown;     // share of the ticks in which a joint's |torque| ≥ its effort limit
-  double deviation_peak_rad = unknown;  // [rad] largest |ref − dmp2's ref| over joints and ticks: the price of smoothness
-  double deviation_peak_m = unknown;    // [m] likewise, distance of the tool's references
-  /// [s] from the last join before that peak (of the joints) until the deviation stays below faded_share of it.
+  double tool_tracking_after_join_max_m = unknown;  // worst over the joins
+  double tool_tracking_after_join_max_rad = unknown;
+  double saturated_share =
+      unknown;  // share of the ticks in which a joint's |torque| ≥ its effort limit
+  double deviation_peak_rad =
+      unknown;  // [rad] largest |ref − dmp2's ref| over joints and ticks: the price of smoothness
+  double deviation_peak_m = unknown;  // [m] likewise, distance of the tool's references
+  /// [s] from the last join before that peak (of the joints) until the deviation stays below faded_share of it to the
+  /// end; NaN: it does not
   double deviation_faded_s = unknown;
 };
 
@@ -76,7 +96,9 @@ struct Companions {
 };
 
 /// Measures what a recording has columns for; the rest is NaN.
-/// @throws Error  fewer than 2 ticks, or a companion that differs in joins (half) or ticks and joints (dmp2)
-RunMetrics measure(const Recording& recording, const Companions& companions = {});
+/// @throws Error  fewer than 2 ticks, settings that will not do, a companion that has another tick or other joins (half),
+///                other times, joints or coordinates (dmp2)
+RunMetrics measure(const Recording& recording, const Companions& companions = {},
+                   const MetricSettings& settings = {});
 
 }  // namespace seam

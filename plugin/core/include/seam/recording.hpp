@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,12 @@ namespace seam {
 
 /// A join in a recording.
 struct RecordedJoin {
-  double time = 0.0;               // [s]
-  int primitive = 0;               // index of the one that took over; 0 is the start
-  double acceleration_jump = 0.0;  // [rad/s²] largest over angles, exact one-sided values
-  double linear_jump = 0.0;        // [m/s²] likewise, over the tool's x y z
+  double time = 0.0;  // [s]
+  int primitive = 0;  // index of the one that took over; 0 is the start
+  /// [rad/s²] largest over angles, exact one-sided values; NaN: not known
+  double acceleration_jump = std::numeric_limits<double>::quiet_NaN();
+  /// [m/s²] likewise, over the tool's x y z
+  double linear_jump = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Something else that was recorded at every tick; the name carries its unit.
@@ -46,6 +49,7 @@ struct Recording {
 
   std::vector<Signal> signals;
   std::vector<Outcome> outcomes;
+  std::string source = "recording";  // where it is from (a file's path), for messages
 
   Recording() = default;
   /// Room for a number of ticks; nothing allocates afterwards.
@@ -54,17 +58,17 @@ struct Recording {
             std::vector<std::string> tool_coordinates = {});
 
   int ticks() const { return static_cast<int>(time.size()); }
-  double dt() const { return time(1) - time(0); }  // [s]
-
-  /// A join at a time [s], its acceleration jumps estimated from ref_acc (see jump), NaN where that cannot be.
-  RecordedJoin estimated_join(double at, int primitive) const;
+  /// [s] mean; a clock that is written with few digits is uneven in the last.
+  double dt() const { return (time(time.size() - 1) - time(0)) / (ticks() - 1); }
 
   bool in_task_space() const { return !coordinates.empty(); }
 
-  /// Reads what `write` writes, or any CSV with `time` [s] first, at even ticks, and torque.<j> for each joint; of the
-  /// other columns each kind is there for all joints or for none, and is then empty. Columns of other names
-  /// become signals. A join is where `switch` changes (see estimated_join); without `switch` there is none. Effort limits are not in the file: NaN.
-  /// @throws Error  names the file, and the line or the column
+  /// Reads what `write` writes, or any CSV with `time` [s] first, at even ticks. Joints are those of the columns
+  /// torque.<j>, q.<j>, qd.<j>, else those of ref.<j>; each kind of column is there for all of them or for none, and is then
+  /// empty. ref.<c> of x y z, or of x y z rx ry rz, that are no joints make it a recording in task space. Columns of other
+  /// names become signals. A join is where `switch` changes, at its first new tick; a change of goal or τ does not show
+  /// there. The joins' acceleration jumps and the joints' effort limits are not in the file: NaN.
+  /// @throws Error  names the file, the line or the column, and what would be right
   static Recording read(const std::string& path);
   /// Writes the table as CSV: time, switch, ref.<j>, ref_vel.<j>, ref_acc.<j>, q.<j>, qd.<j>,
   /// torque.<j>; in task space also ref.<c>, ref_vel.<c>, ref_acc.<c>, tool_error_m, tool_error_rad; the signals.

@@ -3,6 +3,7 @@
 // For users' tests: what a recording should be. Each is a matcher of GoogleTest (1.11 or later) and needs nothing of it:
 //
 //     EXPECT_THAT(recording, seam::TorqueIsContinuousAt(1.25).within(0.5 /*N·m*/));
+//     EXPECT_THAT(noisy, seam::TorqueIsContinuousAt(1.25).within(0.5).fitting(20 /*ticks*/));
 //
 // and for other test frameworks a function: why_not(recording) is empty, or says what is wrong.
 
@@ -56,6 +57,12 @@ class NoJump : public RecordingMatcher<NoJump> {
   NoJump(const Of& signal, std::vector<double> times, double limit)
       : signal_(signal), times_(std::move(times)), limit_(limit) {}
 
+  /// The same with lines through more ticks than 3, for what is noisy (see `jump`).
+  NoJump fitting(int line_ticks) const {
+    NoJump fitted = *this;
+    fitted.line_ticks_ = line_ticks;
+    return fitted;
+  }
   /// Empty if so, else the joint that steps most, by how much and when.
   std::string why_not(const Recording& recording) const {
     std::vector<double> times = times_;
@@ -65,12 +72,13 @@ class NoJump : public RecordingMatcher<NoJump> {
     double worst = -1.0;
     std::string reason;
     for (const double time : times) {
-      const Eigen::VectorXd size = recording.ticks() < 2
-                                       ? Eigen::VectorXd()
-                                       : jump(recording.time, recording.*signal_.values, time);
-      if (size.size() == 0 || !size.allFinite())
+      const Eigen::VectorXd size =
+          jump(recording.time, recording.*signal_.values, time, line_ticks_);
+      if (size.size() == 0)
+        return std::string(signal_.name) + " cannot be measured: it is not in the recording";
+      if (!size.allFinite())
         return std::string(signal_.name) + " cannot be measured at " + detail::number(time) +
-               " s: needs four ticks to either side";
+               " s: needs " + std::to_string(line_ticks_ + 1) + " finite ticks to either side";
       Eigen::Index joint = 0;
       const double largest = size.cwiseAbs().maxCoeff(&joint);
       if (largest <= limit_ || largest <= worst) continue;
@@ -95,6 +103,7 @@ class NoJump : public RecordingMatcher<NoJump> {
   Of signal_;
   std::vector<double> times_;
   double limit_;
+  int line_ticks_ = 3;
 };
 
 /// Torque at a time [s]: `TorqueIsContinuousAt(join).within(0.5 /*N·m*/)`.
