@@ -16,6 +16,7 @@
 #include "bench/compare.hpp"
 #include "bench/figure.hpp"
 #include "bench/gate.hpp"
+#include "bench/names.hpp"
 #include "bench/report.hpp"
 #include <seam/error.hpp>
 
@@ -35,13 +36,6 @@ struct Options {
   std::string baselines;  // folder; empty: none
   bool update = false;
 };
-
-// A scene is a file, or the name of one of the project's own.
-std::string scene_file(const std::string& scene) {
-  if (std::filesystem::is_regular_file(scene) || scene.find_first_of("./") != std::string::npos)
-    return scene;
-  return std::string(SEAM_SCENES) + "/" + scene + ".yaml";
-}
 
 std::vector<std::string> own_scenes() {
   std::vector<std::string> files;
@@ -78,13 +72,6 @@ std::vector<Scene> read_scenes(const Options& options) {
 void list_scenes(const Options& options) {
   for (const Scene& scene : read_scenes(options))
     fmt::print("{:10}  {}\n", scene.name, scene.title);
-}
-
-std::vector<Join> read_methods(const std::vector<std::string>& names) {
-  std::vector<Join> methods;
-  for (const std::string& name : names) methods.push_back(join_from_name(name));
-  if (names.empty()) methods.assign(all_joins.begin(), all_joins.end());
-  return methods;
 }
 
 std::string own_method(const std::string& scene) {

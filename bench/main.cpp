@@ -7,6 +7,7 @@
 #include "bench/learn_command.hpp"
 #include "bench/metrics_command.hpp"
 #include "bench/rollout_command.hpp"
+#include "bench/sweep_command.hpp"
 #include <seam/error.hpp>
 
 namespace {
@@ -19,6 +20,7 @@ int run(int argc, char** argv) {
   seam::add_run_command(app);
   seam::add_learn_command(app);
   seam::add_rollout_command(app);
+  seam::add_sweep_command(app);
   seam::add_metrics_command(app);
 
   try {

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include <LinearMath/btScalar.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/columns.hpp"
@@ -27,9 +26,7 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
       entry.update(to_json(run));
       runs.push_back(std::move(entry));
     }
-  return {{"format", 1},
-          {"versions", {{"seam", seam_version}, {"bullet", BT_BULLET_VERSION}}},
-          {"runs", runs}};
+  return {{"format", 1}, {"versions", versions_json(seam_version)}, {"runs", runs}};
 }
 
 void make_folder(const std::filesystem::path& dir) {

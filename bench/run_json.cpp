@@ -1,5 +1,7 @@
 #include "bench/run_json.hpp"
 
+#include <LinearMath/btScalar.h>
+
 #include "bench/columns.hpp"
 
 namespace seam {
@@ -15,6 +17,10 @@ nlohmann::ordered_json to_json(const Run& run) {
   nlohmann::ordered_json metrics;
   for (const Column& column : columns(run.recording)) metrics[column.name] = column.of(run);
   return {{"joins", joins}, {"metrics", metrics}};
+}
+
+nlohmann::ordered_json versions_json(const std::string& seam_version) {
+  return {{"seam", seam_version}, {"bullet", BT_BULLET_VERSION}};
 }
 
 }  // namespace seam

@@ -137,12 +137,21 @@ void Table::write(const std::string& path) const {
 }
 
 void write_whole(const std::string& path, const std::string& content) {
+  write_whole(path, [&](std::ostream& file) { file << content; });
+}
+
+void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write) {
   std::error_code ignored;
   const bool in_place =
       std::filesystem::is_character_file(path, ignored) || std::filesystem::is_fifo(path, ignored);
   const std::string part = in_place ? path : path + ".part";
   std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  file << content;
+  try {
+    write(file);
+  } catch (...) {
+    if (!in_place) std::remove(part.c_str());
+    throw;
+  }
   file.close();
   if (file && (in_place || std::rename(part.c_str(), path.c_str()) == 0)) return;
   const std::string reason = std::strerror(errno);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -27,5 +29,7 @@ struct Table {
 /// or a pipe (/dev/stdout) is written to as it is.
 /// @throws Error  cannot be written (names the reason, e.g. no space left on device)
 void write_whole(const std::string& path, const std::string& content);
+/// The same where the content is too long to be held in memory.
+void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace seam

@@ -1,0 +1,147 @@
+#include "bench/sweep_command.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bench/names.hpp"
+#include "bench/sweep.hpp"
+#include <seam/error.hpp>
+
+namespace seam {
+
+namespace {
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> vary, overrides, methods, merge;
+  std::optional<std::int64_t> samples;
+  std::uint64_t seed = 1;
+  std::string shard = "0/1";
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::string out;
+};
+
+SweepPlan read_plan(const Options& options) {
+  SweepPlan plan;
+  bool draws = false;
+  for (const std::string& text : options.vary) {
+    plan.variations.push_back(Variation::read(text));
+    draws |= plan.variations.back().drawn();
+  }
+  if (draws && !options.samples)
+    throw Error("--samples", "is missing: how many values are drawn for keys given as a:b");
+  if (!draws && options.samples) throw Error("--samples", "draws nothing: no key is varied as a:b");
+  plan.draws = options.samples.value_or(1);
+  plan.seed = options.seed;
+  plan.methods = read_methods(options.methods);
+  return plan;
+}
+
+// Shows how far a sweep is, ten times a second at most.
+class Bar {
+ public:
+  explicit Bar(std::int64_t done) : before_(done) {}
+
+  void show(std::int64_t done, std::int64_t total) {
+    const auto now = Clock::now();
+    if (!isatty(STDERR_FILENO) || (done < total && now - shown_ < std::chrono::milliseconds(100)))
+      return;
+    shown_ = now;
+    const double rate =
+        static_cast<double>(done - before_) / std::chrono::duration<double>(now - begin_).count();
+    fmt::print(stderr, "\r\033[K");
+    if (done < total)
+      fmt::print(stderr, "{}/{} samples, {:.3g} a second, {:.0f} s left", done, total, rate,
+                 static_cast<double>(total - done) / rate);
+    std::fflush(stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point shown_;
+  std::int64_t before_;
+};
+
+void sweep(const Options& options) {
+  const Shard shard = Shard::read(options.shard);
+  const Sweep sweep(scene_file(options.scene), options.overrides, read_plan(options), SEAM_VERSION);
+  const SweepContents contents = sweep.contents(shard);
+  SweepFile file(options.out, contents);
+  const std::int64_t before = file.done();
+  Bar bar(before);
+  run_sweep(sweep, shard, options.jobs, file,
+            [&](std::int64_t done, std::int64_t total) { bar.show(done, total); });
+  fmt::print("{}: {} samples, each with {} methods{}\n", options.out, contents.size(),
+             contents.plan.methods.size(),
+             before > 0 ? fmt::format("; {} were there already", before) : "");
+}
+
+void sweep_or_merge(const Options& options) {
+  if (options.out.empty()) throw Error("--out", "is empty, must be a file");
+  if (options.merge.empty()) {
+    if (options.scene.empty()) throw Error("seam sweep", "needs a scene, or --merge");
+    return sweep(options);
+  }
+  if (!options.scene.empty() || !options.vary.empty())
+    throw Error("--merge", "plays nothing: leave out scene and --vary");
+  const SweepContents contents = merge_sweeps(options.merge, options.out);
+  fmt::print("{}: {} samples, each with {} methods, of {} parts\n", options.out, contents.size(),
+             contents.plan.methods.size(), options.merge.size());
+}
+
+void add_what(CLI::App& command, Options& options) {
+  command.add_option("scene", options.scene, "scene file, or name of one of seam's own");
+  command
+      .add_option("--vary", options.vary,
+                  "key=a:b:n for n values evenly from a to b, key=v1,v2 for these, key=a:b for "
+                  "values drawn by chance; keys as for bench --set; may be repeated, all "
+                  "combinations are played")
+      ->allow_extra_args(false);
+  command
+      .add_option("--samples", options.samples,
+                  "how many values are drawn; more can be asked for later")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+  command.add_option("--seed", options.seed, "of what is drawn")->capture_default_str();
+  command
+      .add_option("--set", options.overrides,
+                  "key=value: an entry of the scene file set anew in all; may be repeated")
+      ->allow_extra_args(false);
+  command
+      .add_option("--method", options.methods,
+                  "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
+      ->allow_extra_args(false)
+      ->delimiter(',');
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "sweep", "play many variants of a scene; taken up again where it was stopped");
+  add_what(command, *options);
+  command.add_option("--jobs", options->jobs, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      .add_option("--shard", options->shard,
+                  "i/n: play the i-th (from 0) of n parts, into a file of its own")
+      ->capture_default_str();
+  command.add_option("--merge", options->merge, "files of all shards: put them together");
+  command.add_option("-o,--out", options->out, "CSV file: a row per sample and method")->required();
+  command.footer(
+      "Example: seam sweep carrying --vary sequence.steps.0.until.before_end=0:1.2:61 --out "
+      "joins.csv\nWhat is measured is explained in README.md; FILE.json says what was played, "
+      "FILE.rows grows meanwhile.");
+  command.callback([options] { sweep_or_merge(*options); });
+}
+
+}  // namespace seam
