@@ -3,18 +3,19 @@ packages := g++ cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-de
   libconsole-bridge-dev libtinyxml2-dev libassimp-dev zlib1g-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgtest-dev \
   libgmock-dev libbenchmark-dev liborocos-kdl-dev $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
 tools := clang-format clang-tidy
+browser := chromium
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
-.PHONY: help bench test debug asan tsan format tidy micro meshes readme clean
+.PHONY: help bench test debug asan tsan format tidy micro meshes page readme clean
 .PRECIOUS: build/%/build.ninja
 help:                                  ## this list
 	@sed -nE 's/^([a-z]+( [a-z]+)*): .*## /\1:\t/p' Makefile | expand -t 20
 bench: build/release/build.ninja       ## build, run every scene with every method, print the comparison, fill results/
 	cmake --build --preset release --target seam
 	build/release/bench/seam bench --out results
-test: build/release/build.ninja        ## build and run every test
+test: build/browser build/release/build.ninja ## build and run every test
 	cmake --build --preset release
 	ctest --preset release
-debug asan tsan: %: build/%/build.ninja ## build and run every test with assertions; address and UB, or thread, sanitizer
+debug asan tsan: %: build/browser build/%/build.ninja ## build and run every test with assertions; address and UB, or thread, sanitizer
 	cmake --build --preset $@
 	ctest --preset $@
 format: build/tools                    ## check the layout of the C++ sources (FIX=1: put it right)
@@ -24,14 +25,13 @@ tidy: build/tools build/release/build.ninja ## check the C++ sources with clang-
 micro: build/release/build.ninja       ## measure learning, and a step beside a bare loop of the same arithmetic
 	cmake --build --preset release --target seam_micro
 	build/release/bench/seam_micro --benchmark_report_aggregates_only
-meshes:                                ## make the arm's meshes anew (needs Node.js)
-	cd assets/pa10/source && npm ci && npm run meshes
-readme: bench                          ## put the bench's figures into README.md
-	bash bench/readme.sh
+meshes page:                           ## make the arm's meshes, or the report page's template, anew (needs Node.js)
+	cd $(if $(filter page,$@),bench/page,assets/pa10/source) && npm ci && npm run $@
+readme: bench ; bash bench/readme.sh   ## put the bench's figures into README.md
 clean:                                 ## remove what was built
 	rm -rf build results
 
-build/packages build/tools: Makefile
+build/packages build/tools build/browser: Makefile
 	@sh .ci/install-packages.sh $@.log $($(@F)) && mkdir -p build && touch $@
 build/setup: build/packages
 	@sh plugin/cmake/bullet-headers.sh build/bullet-headers && touch $@

@@ -17,6 +17,7 @@
 #include "bench/figure.hpp"
 #include "bench/gate.hpp"
 #include "bench/names.hpp"
+#include "bench/page.hpp"
 #include "bench/report.hpp"
 #include <seam/error.hpp>
 
@@ -129,6 +130,9 @@ bool bench(const Options& options) {
   if (comparisons.size() > 1) fmt::print("{}\n", overview(comparisons));
   fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n",
              options.out);
+  const std::string page = (std::filesystem::path(options.out) / "report.html").string();
+  write_page(options.out, page);
+  fmt::print("{}: all of it to look at, in any browser\n", page);
   return !baselines || check(comparisons, *baselines, options);
 }
 

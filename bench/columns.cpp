@@ -130,18 +130,25 @@ Rows cells(const Comparison& comparison) {
 // What a scene adds, in words.
 std::string came_of(const Run& run) {
   std::string text;
-  for (const Outcome& outcome : run.recording.outcomes) {
-    if (outcome.name == "stopped_share" && outcome.value == 0.0) continue;
-    const bool share = outcome.name.find("_share") != std::string::npos;
-    text += (text.empty() ? "" : ", ") + outcome.name.substr(0, outcome.name.rfind('_')) + " " +
-            (share ? fmt::format("{:.3g} %", 100.0 * outcome.value)
-                   : fmt::format("{:.1f} mm", 1e3 * outcome.value));
-  }
-  std::replace(text.begin(), text.end(), '_', ' ');
+  for (const auto& [name, value] : shown_outcomes(run.recording))
+    text += (text.empty() ? "" : ", ") + name + " " + value;
   return text;
 }
 
 }  // namespace
+
+std::vector<ShownOutcome> shown_outcomes(const Recording& recording) {
+  std::vector<ShownOutcome> all;
+  for (const Outcome& outcome : recording.outcomes) {
+    if (outcome.name == "stopped_share" && outcome.value == 0.0) continue;
+    const bool share = outcome.name.find("_share") != std::string::npos;
+    std::string name = outcome.name.substr(0, outcome.name.rfind('_'));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    all.push_back({name, share ? fmt::format("{:.3g} %", 100.0 * outcome.value)
+                               : fmt::format("{:.1f} mm", 1e3 * outcome.value)});
+  }
+  return all;
+}
 
 std::string table(const Comparison& comparison) {
   return markdown(cells(comparison), 1);

@@ -30,6 +30,13 @@ struct JoinColumn {
 
 std::vector<JoinColumn> join_columns(const Recording& recording);
 
+/// One thing that came of a run, for people: `spilled`, `0.425 %`.
+struct ShownOutcome {
+  std::string name;
+  std::string value;  // with its unit
+};
+std::vector<ShownOutcome> shown_outcomes(const Recording& recording);
+
 /// The comparison as a Markdown table, a method a column, that is aligned for reading on a terminal.
 std::string table(const Comparison& comparison);
 /// All scenes and methods in one table: what came of each, and what it cost.

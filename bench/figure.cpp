@@ -9,8 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/method_style.hpp"
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
+#include <seam/metrics.hpp>
 #include <seam/table.hpp>
 
 namespace seam {
@@ -57,17 +59,10 @@ void write_primitives(const Comparison& comparison, const std::string& folder) {
 }
 
 std::string style(Join method) {
-  switch (method) {
-    case Join::dmp2:
-      return "lc rgb '#d55e00' lw 2.5 dt 1";
-    case Join::dmp2a:
-      return "lc rgb '#0072b2' lw 2.5 dt 1";
-    case Join::dmp3:
-      return "lc rgb '#009e73' lw 2.5 dt (8,5)";
-    case Join::dmp2j:
-      return "lc rgb '#cc79a7' lw 2.5 dt (3,3)";
-  }
-  return "";
+  const auto [colour, dash] = style_of(method);
+  const bool whole = dash[0] == 0;
+  return fmt::format("lc rgb '{}' lw 2.5 dt {}", colour,
+                     whole ? "1" : fmt::format("({},{})", dash[0], dash[1]));
 }
 
 // One curve per method of a recording's column; `x` is gnuplot's.
@@ -108,14 +103,9 @@ const char* unit(const Scene& scene) {
 std::string torque_joint(const Comparison& comparison) {
   const Recording& recording = comparison.runs.front().recording;
   if (!recording.in_task_space()) return comparison.scene.figure;
-  Eigen::VectorXd worst = Eigen::VectorXd::Zero(recording.effort.size());
-  for (const RecordedJoin& join : recording.joins) {
-    const Eigen::VectorXd step = jump(recording.time, recording.torque, join.time).cwiseAbs();
-    if (step.allFinite()) worst = worst.cwiseMax(step);
-  }
-  Eigen::Index joint = 0;
-  worst.maxCoeff(&joint);
-  return recording.joints[static_cast<std::size_t>(joint)];
+  std::vector<double> joins;
+  for (const RecordedJoin& join : recording.joins) joins.push_back(join.time);
+  return recording.joints[most_disturbed_joint(recording.time, recording.torque, joins)];
 }
 
 std::string sequencing_script(const Comparison& comparison) {
@@ -234,6 +224,18 @@ void draw(const std::string& folder, const std::string& name, const std::string&
 }
 
 }  // namespace
+
+std::size_t most_disturbed_joint(const Eigen::VectorXd& time, const Eigen::MatrixXd& torque,
+                                 const std::vector<double>& joins) {
+  Eigen::VectorXd worst = Eigen::VectorXd::Zero(torque.cols());
+  for (const double join : joins) {
+    const Eigen::VectorXd step = jump(time, torque, join).cwiseAbs();
+    if (step.allFinite()) worst = worst.cwiseMax(step);
+  }
+  Eigen::Index joint = 0;
+  worst.maxCoeff(&joint);
+  return static_cast<std::size_t>(joint);
+}
 
 void require_gnuplot() {
   const std::string log = "/dev/null";

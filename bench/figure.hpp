@@ -6,6 +6,13 @@
 
 namespace seam {
 
+/// The joint whose torque steps most at the joins: the one to show.
+/// @param time    [s] N
+/// @param torque  N × n
+/// @param joins   [s]
+std::size_t most_disturbed_joint(const Eigen::VectorXd& time, const Eigen::MatrixXd& torque,
+                                 const std::vector<double>& joins);
+
 /// @throws Error  there is no gnuplot
 void require_gnuplot();
 

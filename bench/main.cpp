@@ -6,6 +6,7 @@
 #include "bench/bench_command.hpp"
 #include "bench/learn_command.hpp"
 #include "bench/metrics_command.hpp"
+#include "bench/report_command.hpp"
 #include "bench/rollout_command.hpp"
 #include "bench/sweep_command.hpp"
 #include <seam/error.hpp>
@@ -22,6 +23,7 @@ int run(int argc, char** argv) {
   seam::add_rollout_command(app);
   seam::add_sweep_command(app);
   seam::add_metrics_command(app);
+  seam::add_report_command(app);
 
   try {
     app.parse(argc, argv);

@@ -15,18 +15,54 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// What is no UTF-8 in a scene file is replaced, not refused.
+constexpr auto as_it_can = Json::error_handler_t::replace;
+
+template <typename Columns>
+Json headings(const Columns& columns) {
+  Json list = Json::array();
+  for (const auto& column : columns)
+    list.push_back({{"name", column.name}, {"heading", column.heading}, {"format", column.format}});
+  return list;
+}
+
+// What was measured, and on what.
+Json scene_json(const Comparison& comparison) {
+  const Scene& scene = comparison.scene;
+  const Recording& recording = comparison.runs.front().recording;
+  return {{"scene", scene.name},
+          {"title", scene.title},
+          {"figure", scene.figure},
+          {"file", scene.text},
+          {"overrides", scene.overrides},
+          {"rim", scene.liquid ? Json(scene.liquid->rim) : Json()},
+          {"columns", headings(columns(recording))},
+          {"join_columns", headings(join_columns(recording))}};
+}
+
+Json outcomes_json(const Recording& recording) {
+  Json outcomes = Json::object();
+  for (const auto& [name, value] : shown_outcomes(recording)) outcomes[name] = value;
+  return outcomes;
+}
+
 Json summary(const std::vector<Comparison>& comparisons, const std::string& seam_version) {
-  Json runs = Json::array();
+  Json scenes = Json::array(), runs = Json::array();
+  for (const Comparison& comparison : comparisons) scenes.push_back(scene_json(comparison));
   for (const Comparison& comparison : comparisons)
     for (const Run& run : comparison.runs) {
       Json entry{{"scene", comparison.scene.name},
                  {"method", to_string(run.method)},
                  {"dt", comparison.scene.dt},
-                 {"seed", comparison.scene.seed}};
+                 {"seed", comparison.scene.seed},
+                 {"outcomes", outcomes_json(run.recording)}};
       entry.update(to_json(run));
       runs.push_back(std::move(entry));
     }
-  return {{"format", 1}, {"versions", versions_json(seam_version)}, {"runs", runs}};
+  return {{"format", 1},
+          {"versions", versions_json(seam_version)},
+          {"scenes", scenes},
+          {"runs", runs}};
 }
 
 void make_folder(const std::filesystem::path& dir) {
@@ -55,7 +91,7 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
   write_whole((results / "table.md").string(), tables);
   write_whole((results / "overview.md").string(), overview(comparisons));
   write_whole((results / "summary.json").string(),
-              summary(comparisons, seam_version).dump(2) + "\n");
+              summary(comparisons, seam_version).dump(2, ' ', false, as_it_can) + "\n");
 }
 
 }  // namespace seam

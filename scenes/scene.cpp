@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -96,6 +97,11 @@ double read_duration(const YamlEntry& root, const Sequence& sequence) {
   return sequence.duration() + (settle ? at_most(*settle, settle->not_negative()) : 1.0);
 }
 
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 }  // namespace
 
 namespace {
@@ -164,6 +170,8 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
+  scene.text = text_of(path);
+  scene.overrides = overrides;
   read_robot(root.at("robot"), scene);
   const auto tool = root.find("tool");
   if (tool) scene.tool = read_tool(*tool, scene);

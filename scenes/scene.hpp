@@ -33,9 +33,11 @@ struct Pouring {
 
 /// A scene file, read and learned: everything that a run needs but the joining method.
 struct Scene {
-  std::string name;      // the file's name without its ending
-  std::string title;     // one line
-  RobotModel robot;      // as the controller takes it to be
+  std::string name;                    // the file's name without its ending
+  std::string title;                   // one line
+  std::string text;                    // the file as it stands
+  std::vector<std::string> overrides;  // with which it was read
+  RobotModel robot;                    // as the controller takes it to be
   RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
   std::optional<LiquidSettings> liquid;                            // that moves
   Eigen::Isometry3d X_link_glass = Eigen::Isometry3d::Identity();  // of its glass, in the tool's

@@ -35,7 +35,7 @@ TEST(Program, BenchComparesAndLeavesTheSameBytesTwice) {
   const auto files = files_below(folder.path("a"));
   EXPECT_THAT(files, testing::IsSupersetOf({"summary.json", "line/dmp2.csv", "line/dmp2a.csv",
                                             "line/dmp3.csv", "line/dmp3.replay.json",
-                                            "line/line.png", "line/torque.png"}));
+                                            "line/line.png", "line/torque.png", "report.html"}));
   EXPECT_EQ(files, files_below(folder.path("b")));
   for (const std::string& file : files)
     EXPECT_TRUE(test::read_file(folder.path("a/" + file)) ==
@@ -117,6 +117,7 @@ TEST(Program, PrintsTheTableOfTheReadmeAndKeepsTheBaselines) {
   ASSERT_EQ(outcome.status, 0) << outcome.output;
   const auto left = rows(test::read_file(folder.path("r/overview.md")));
   ASSERT_EQ(left.size(), 17U);
+  EXPECT_LT(std::filesystem::file_size(folder.path("r/report.html")), 4'000'000U);
   EXPECT_EQ(left, rows(readme.substr(begin, readme.find("<!-- /table -->") - begin)));
 }
 
@@ -178,7 +179,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"RenewsNothing", "bench line --update", "--update: needs --check"},
         BadCall{"NoFolder", "bench line --out ''", "--out: is empty"},
         BadCall{"SceneTwice", "bench line line", "scene \"line\": given twice"},
-        BadCall{"UnwritableFolder", "bench line --out /proc/seam", "/proc/seam"}),
+        BadCall{"UnwritableFolder", "bench line --out /proc/seam", "/proc/seam"},
+        BadCall{"ReportOfNothing", "report @nowhere -o @page.html",
+                "nowhere/summary.json: cannot be read, must be what seam bench left"},
+        BadCall{"ReportNowhere", "report @nowhere", "--out"}),
     test::by_name);
 
 }  // namespace
