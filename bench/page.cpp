@@ -16,6 +16,7 @@
 #include "bench/page_replay.hpp"
 #include "bench/page_template.hpp"
 #include <seam/error.hpp>
+#include <seam/recording.hpp>
 #include <seam/table.hpp>
 
 namespace seam {
@@ -39,47 +40,41 @@ Json read_summary(const std::string& path) {
   return summary;
 }
 
-bool begins_with(const std::string& text, const std::string& begin) {
-  return text.compare(0, begin.size(), begin) == 0;
-}
-
-Eigen::Index column(const Table& table, const std::string& path, const std::string& name) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-  if (found == table.columns.end()) throw Error(path, "has no column \"" + name + "\"");
-  return found - table.columns.begin();
-}
-
-// What is drawn: references, torques, what the scene adds; not the measured positions, which differ by what is
-// drawn as the tracking error.
-bool is_drawn(const std::string& name) {
-  for (const char* other : {"time", "switch", "tool_error_"})
-    if (begins_with(name, other)) return false;
-  return !begins_with(name, "q.") && !begins_with(name, "qd.");
-}
-
 struct Curves {
   std::vector<std::string> names;
-  Eigen::VectorXd time;
   Eigen::MatrixXd values;
+
+  void add(const std::string& prefix, const std::vector<std::string>& of,
+           const Eigen::MatrixXd& columns) {
+    if (columns.cols() == 0) return;
+    for (const std::string& name : of) names.push_back(prefix + name);
+    values.conservativeResize(columns.rows(), values.cols() + columns.cols());
+    values.rightCols(columns.cols()) = columns;
+  }
 };
 
-Curves read_curves(const std::string& path) {
-  const Table table = Table::read(path);
-  Curves curves{{}, table.values.col(column(table, path, "time")), {}};
-  curves.values.resize(table.values.rows(), table.values.cols());
-  const auto add = [&](const std::string& name, const auto& values) {
-    curves.values.col(static_cast<Eigen::Index>(curves.names.size())) = values;
-    curves.names.push_back(name);
-  };
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const std::string& name = table.columns[c];
-    const auto values = table.values.col(static_cast<Eigen::Index>(c));
-    if (is_drawn(name)) add(name, values);
-    if (begins_with(name, "q."))
-      add("error." + name.substr(2),
-          table.values.col(column(table, path, "ref." + name.substr(2))) - values);
-  }
-  curves.values.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(curves.names.size()));
+Recording read_recording(const std::string& path) {
+  Recording recording = Recording::read(path);
+  for (const auto& [kind, values] :
+       {std::pair("ref.", &recording.ref), {"q.", &recording.q}, {"torque.", &recording.torque}})
+    if (values->cols() == 0) throw Error(path, std::string("has no column ") + kind + "<joint>");
+  return recording;
+}
+
+// What is drawn: references, by how much they are missed, torques, and what the scene adds.
+Curves curves_of(const Recording& recording) {
+  Curves curves;
+  const auto& joints = recording.joints;
+  const auto& coordinates = recording.coordinates;
+  curves.add("ref.", joints, recording.ref);
+  curves.add("ref_vel.", joints, recording.ref_vel);
+  curves.add("ref_acc.", joints, recording.ref_acc);
+  curves.add("torque.", joints, recording.torque);
+  curves.add("error.", joints, recording.ref - recording.q);
+  curves.add("ref.", coordinates, recording.tool_ref);
+  curves.add("ref_vel.", coordinates, recording.tool_vel);
+  curves.add("ref_acc.", coordinates, recording.tool_acc);
+  for (const Signal& signal : recording.signals) curves.add("", {signal.name}, signal.values);
   return curves;
 }
 
@@ -119,6 +114,7 @@ class ScenePage {
     page["time"] = time_;
     page["stage"] = stage_;
     page["camera"] = camera_;
+    page["why_no_arm"] = why_no_arm_;
     page["curves"] = names_;
     page["torque"] = torque_joint_;
     page["pack"] = pack_.text();
@@ -129,9 +125,10 @@ class ScenePage {
   Json run_page(const Json& run) {
     const std::string method = run.at("method");
     const std::string path = folder_ + "/" + method + ".csv";
-    const Curves curves = read_curves(path);
-    if (names_.empty()) begin(curves);
-    if (curves.names != names_ || curves.time.size() != ticks_)
+    const Recording recording = read_recording(path);
+    const Curves curves = curves_of(recording);
+    if (names_.empty()) begin(recording, curves);
+    if (curves.names != names_ || recording.ticks() != ticks_)
       throw Error(path, "has other columns or times than the scene's other recordings");
     Json page = {{"method", method},
                  {"dt", run.at("dt")},
@@ -157,7 +154,8 @@ class ScenePage {
   Json motion(const std::string& path) {
     if (!std::filesystem::exists(path)) return {};
     const Replay replay = Replay::read(path);
-    const Json stage = page_stage(replay, meshes_);
+    const Json stage = stage_of(replay);
+    if (stage.is_null()) return {};
     if (stage_.is_null()) {
       stage_ = stage;
       camera_ = page_camera(replay.camera);
@@ -166,30 +164,30 @@ class ScenePage {
     return page_motion(replay, pack_);
   }
 
-  void begin(const Curves& curves) {
+  // Null, and the reason is told, where its meshes are not there any more (results from another machine).
+  Json stage_of(const Replay& replay) {
+    try {
+      return page_stage(replay, meshes_);
+    } catch (const Error& error) {
+      why_no_arm_ = error.what();
+      return {};
+    }
+  }
+
+  void begin(const Recording& recording, const Curves& curves) {
     names_ = curves.names;
-    ticks_ = curves.time.size();
-    kept_ = kept_ticks(curves.time, joins_, near, curve_points);
-    Eigen::VectorXd time(static_cast<Eigen::Index>(kept_.size()));
-    for (std::size_t i = 0; i < kept_.size(); ++i)
-      time(static_cast<Eigen::Index>(i)) = curves.time(kept_[i]);
-    time_ = pack_.add(time, 1e-6);
-    torque_joint_ = torque_joint(curves);
+    ticks_ = recording.ticks();
+    kept_ = kept_ticks(recording.time, joins_, near, curve_points);
+    time_ = pack_.add(recording.time(kept_), 1e-6);
+    torque_joint_ = torque_joint(recording);
   }
 
   // The figure's own joint, or the one whose torque the first method's joins disturb most.
-  std::string torque_joint(const Curves& curves) const {
+  std::string torque_joint(const Recording& recording) const {
+    const auto& joints = recording.joints;
     const std::string figure = scene_.at("figure");
-    std::vector<std::string> joints;
-    std::vector<Eigen::Index> found;
-    for (std::size_t c = 0; c < curves.names.size(); ++c) {
-      if (!begins_with(curves.names[c], "torque.")) continue;
-      joints.push_back(curves.names[c].substr(7));
-      if (joints.back() == figure) return figure;
-      found.push_back(static_cast<Eigen::Index>(c));
-    }
-    if (joints.empty()) throw Error(folder_, "its recordings have no torque");
-    return joints[most_disturbed_joint(curves.time, curves.values(Eigen::all, found), joins_)];
+    if (std::find(joints.begin(), joints.end(), figure) != joints.end()) return figure;
+    return joints[most_disturbed_joint(recording.time, recording.torque, joins_)];
   }
 
   const Json& scene_;
@@ -203,6 +201,7 @@ class ScenePage {
   std::string torque_joint_;
   Pack pack_;
   Json time_, stage_, camera_;
+  std::string why_no_arm_;
 };
 
 Json method_styles() {

@@ -59,10 +59,8 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
       entry.update(to_json(run));
       runs.push_back(std::move(entry));
     }
-  return {{"format", 1},
-          {"versions", versions_json(seam_version)},
-          {"scenes", scenes},
-          {"runs", runs}};
+  return {
+      {"format", 1}, {"versions", versions_json(seam_version)}, {"scenes", scenes}, {"runs", runs}};
 }
 
 void make_folder(const std::filesystem::path& dir) {

@@ -117,6 +117,14 @@ TEST_F(Page, MovesTheArmWithTheCursorAndByPlaying) {
   EXPECT_EQ(state()["time"], paused["time"]);
 }
 
+TEST_F(Page, FollowsTheToolInACloseUp) {
+  const auto all = picture();
+  browser_->press("c");
+  EXPECT_NE(picture(), all);
+  browser_->click("#camera");
+  EXPECT_EQ(picture(), all);
+}
+
 TEST_F(Page, SwitchesScenesAndMethodsByKeys) {
   EXPECT_EQ(state()["scene"], "line");
   browser_->value("document.querySelector('[role=tab]').focus()");
@@ -201,6 +209,14 @@ TEST_F(Report, GoesWithoutAReplayThatIsNotThere) {
   EXPECT_TRUE(data()["scenes"][0]["runs"][0]["motion"].is_null());
 }
 
+TEST_F(Report, SaysWhichMeshIsNotThereAnyMore) {
+  spoil("line/dmp3.replay.json", "base_navy.obj", "gone.obj");
+  ASSERT_EQ(report().status, 0);
+  const Json scene = data()["scenes"][0];
+  EXPECT_TRUE(scene["runs"][0]["motion"].is_null());
+  EXPECT_THAT(scene["why_no_arm"].get<std::string>(), testing::HasSubstr("gone.obj"));
+}
+
 TEST_F(Report, RefusesAnotherFormat) {
   spoil("summary.json", "\"format\": 1", "\"format\": 2");
   expect_refused("summary.json: format 2, must be 1");
@@ -223,7 +239,13 @@ TEST_F(Report, RefusesAMethodThatWasNotPlayed) {
 
 TEST_F(Report, RefusesARecordingThatIsBroken) {
   spoil("line/dmp3.csv", "ref.E1", "ref.X");
-  expect_refused("line/dmp3.csv: has no column \"ref.E1\"");
+  expect_refused("line/dmp3.csv:1: reference of \"X\"");
+}
+
+TEST_F(Report, RefusesARecordingWithoutTorques) {
+  const std::string text = test::read_file(folder_.path("r/line/dmp3.csv"));
+  folder_.write("r/line/dmp3.csv", test::replaced_all(text, "torque.", "other."));
+  expect_refused("line/dmp3.csv: has no column torque.<joint>");
 }
 
 TEST_F(Report, RefusesAReplayThatIsBroken) {

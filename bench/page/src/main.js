@@ -222,6 +222,7 @@ const keys = {
   ']': () => next_scene(1),
   g: () => set_layout('ghosts'),
   s: () => set_layout('side'),
+  c: () => view.set_close(by_id('close-up').getAttribute('aria-pressed') !== 'true'),
   t: () => set_theme(themes[(themes.indexOf(theme) + 1) % themes.length]),
   '?': () => by_id('help').click(),
 };
@@ -262,6 +263,7 @@ function listen() {
   by_id('layout').addEventListener('change', () => set_layout(by_id('layout').value));
   by_id('solid').addEventListener('change', () => view.set_solid(by_id('solid').value));
   by_id('camera').addEventListener('click', () => view.reset_camera());
+  by_id('close-up').addEventListener('click', () => keys.c());
   by_id('theme').addEventListener('click', () => keys.t());
   by_id('help').addEventListener('click', () => {
     const open = by_id('keys').toggleAttribute('hidden') === false;

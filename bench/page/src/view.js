@@ -7,6 +7,7 @@ import { row_at } from './data.js';
 import { part_geometries, unpack_meshes } from './shapes.js';
 
 const view_angle = 29; // [deg]
+const close_distance = 0.75; // [m]
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -30,6 +31,7 @@ export class View {
     this.arms = [];
     this.hidden = new Set();
     this.layout = 'ghosts';
+    this.time = 0;
     this.drawn = 0;
     try {
       this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
@@ -125,6 +127,8 @@ export class View {
     const missing = data.runs.filter((run) => !shown.includes(run)).map((run) => run.method);
     const words = !this.renderer
       ? 'This browser has no WebGL: the arm is not shown.'
+      : data.why_no_arm
+        ? `The arm is not shown: ${data.why_no_arm}`
       : missing.length
         ? `There is no replay of ${missing.join(', ')}: ${shown.length ? 'not shown here' : 'the arm is not shown'}.`
         : '';
@@ -133,7 +137,28 @@ export class View {
     by_id('replay').classList.toggle('empty', !shown.length);
   }
 
+  // Near the tool of the solid arm, going where it goes.
+  set_close(on) {
+    if (!this.arms.length) return;
+    this.reset_camera();
+    by_id('close-up').setAttribute('aria-pressed', String(on));
+    this.close = on;
+    if (!on) return;
+    const out = this.camera.position.clone().sub(this.controls.target).setLength(close_distance);
+    this.controls.target.copy(this.tool());
+    this.camera.position.copy(this.controls.target).add(out);
+    this.controls.update();
+    this.draw();
+  }
+
+  tool() {
+    const arm = this.visible().find(({ run }) => run.method === this.solid) ?? this.arms[0];
+    return new THREE.Vector3(...arm.at(arm.motion.tool, this.time));
+  }
+
   reset_camera() {
+    this.close = false;
+    by_id('close-up').setAttribute('aria-pressed', 'false');
     const { from, at } = this.data.camera;
     this.camera.position.fromArray(from);
     this.controls.target.fromArray(at);
@@ -184,7 +209,13 @@ export class View {
   }
 
   at(time) {
+    this.time = time;
     for (const arm of this.arms) arm.move_to(time);
+    if (this.close) {
+      const moved = this.tool().sub(this.controls.target);
+      this.controls.target.add(moved);
+      this.camera.position.add(moved);
+    }
     this.draw();
   }
 
