@@ -122,9 +122,12 @@ std::string run_table(const Run& run, const Options& options) {
 
 void print(const Run& run, const Options& options) {
   const Recording& recording = run.recording;
-  fmt::print("{}: {} joints, {} ticks of {:g} ms, {} join{}\n\n", options.recording,
-             recording.joints.size(), recording.ticks(), 1e3 * recording.dt(),
-             recording.joins.size(), recording.joins.size() == 1 ? "" : "s");
+  const auto counted = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  fmt::print("{}: {}, {} ticks of {:g} ms, {}\n\n", options.recording,
+             counted(recording.joints.size(), "joint"), recording.ticks(), 1e3 * recording.dt(),
+             counted(recording.joins.size(), "join"));
   if (!recording.joins.empty()) fmt::print("{}\n", joins_table(run));
   fmt::print("{}", run_table(run, options));
 }

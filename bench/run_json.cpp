@@ -13,6 +13,8 @@ nlohmann::ordered_json to_json(const Run& run) {
     for (const JoinColumn& column : join_columns(run.recording))
       metrics[column.name] = join.*column.of;
     joins.push_back({{"time", join.time}, {"metrics", metrics}});
+    if (join.joint >= 0)
+      joins.back()["joint"] = run.recording.joints[static_cast<std::size_t>(join.joint)];
   }
   nlohmann::ordered_json metrics;
   for (const Column& column : columns(run.recording)) metrics[column.name] = column.of(run);

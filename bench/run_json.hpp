@@ -8,7 +8,8 @@
 
 namespace seam {
 
-/// {"joins": [{"time", "metrics": {…}}], "metrics": {…}}, names as in `columns`; null: not measured.
+/// {"joins": [{"time", "metrics": {…}, "joint"}], "metrics": {…}}, names as in `columns`; null: not measured. The joint
+/// is that of the largest torque jump.
 nlohmann::ordered_json to_json(const Run& run);
 
 /// {"seam", "bullet"}: what made the figures.

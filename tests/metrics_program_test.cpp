@@ -57,6 +57,7 @@ TEST(MetricsCommand, PrintsJson) {
   const auto json = nlohmann::json::parse(outcome.output);
   ASSERT_EQ(json["joins"].size(), 2U);
   EXPECT_EQ(json["joins"][1]["time"], 0.1);
+  EXPECT_EQ(json["joins"][1]["joint"], "E1");
   EXPECT_NEAR(json["joins"][1]["metrics"]["torque_jump_nm"], 3.0, 1e-12);
   EXPECT_TRUE(json["metrics"]["torque_jump_percent"].is_null());
 }
@@ -67,7 +68,7 @@ TEST(MetricsCommand, SaysWhatItCouldNotMeasureAndWhatThatNeeds) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(
       outcome.output,
-      AllOf(HasSubstr("1 joints, 4 ticks of 100 ms, 0 joins"),
+      AllOf(HasSubstr("1 joint, 4 ticks of 100 ms, 0 joins"),
             HasSubstr("not measured, needs a join (--join, or a column switch that changes):\n"
                       "  torque_jump_nm, torque_jump_percent, torque_jump_order\n"),
             HasSubstr("needs the joints' effort limits (--urdf):\n  saturated_share\n"),

@@ -234,6 +234,14 @@ TEST(TorqueJump, OfARunIsNotANumberWhereOneOfItsJoinsCannotBeMeasured) {
   EXPECT_TRUE(std::isnan(measure(recording).torque_jump_percent));
 }
 
+TEST(TorqueJump, HasNoOrderWhereRoundingIsAllThatIsLeft) {
+  const auto straight = [](double t) { return 50.0 + 0.3 * t; };
+  const Recording half = recording_of(5e-4, straight);
+  const RunMetrics metrics = measure(recording_of(1e-3, straight), {&half});
+  EXPECT_LT(metrics.torque_jump_nm, 1e-12);
+  EXPECT_TRUE(std::isnan(metrics.torque_jump_order));
+}
+
 // Of a recording that does not say by how much the acceleration steps, as one from a file.
 TEST(AccelerationJump, IsEstimatedWhereItIsNotRecorded) {
   Recording recording({"a", "b"}, Eigen::Vector2d::Ones(), 100, {"x", "y", "z", "rx", "ry", "rz"});

@@ -1,10 +1,10 @@
 // The matchers for users' tests, and what they say.
 
+#include "seam/testing.hpp"  // first: it needs nothing of GoogleTest
+
 #include <limits>
 
 #include <gmock/gmock.h>
-
-#include <seam/testing.hpp>
 
 namespace seam {
 namespace {

@@ -155,10 +155,12 @@ void require_half(const Recording& recording, const Recording& half) {
 }
 
 void measure_orders(const Recording& half, const MetricSettings& settings, RunMetrics& metrics) {
+  const double rounding = 1e-13 * peak(half.torque);
   const std::vector<JoinMetrics> finer = measure_joins(half, settings);
   for (std::size_t i = 0; i < finer.size(); ++i) {
     JoinMetrics& join = metrics.joins[i];
-    join.torque_jump_order = jump_order(join.torque_jump_nm, finer[i].torque_jump_nm);
+    if (join.torque_jump_nm > rounding)
+      join.torque_jump_order = jump_order(join.torque_jump_nm, finer[i].torque_jump_nm);
     if (join.torque_jump_nm == metrics.torque_jump_nm)
       metrics.torque_jump_order = join.torque_jump_order;
   }

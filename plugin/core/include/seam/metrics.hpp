@@ -32,9 +32,8 @@ Eigen::VectorXd jump(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal,
 double jump_order(double at_dt, double at_half_dt);
 
 struct MetricSettings {
-  int line_ticks = 3;  // of `jump`
-  double after_join =
-      0.2;  // [s] in which tracking counts as the join's, at most until the next join
+  int line_ticks = 3;         // of `jump`
+  double after_join = 0.2;    // [s] in which tracking counts as the join's, or until the next join
   double faded_share = 0.05;  // of its peak, below which a deviation has faded
 };
 
@@ -44,21 +43,24 @@ struct JoinMetrics {
   int joint = -1;                        // that of torque_jump_nm
   double torque_jump_nm = unknown;       // [N·m] largest |jump| over joints
   double torque_jump_percent = unknown;  // [%] of the joint's effort limit, largest over joints
-  double torque_jump_order = unknown;    // log₂ of its ratio between dt and dt/2
-  /// [rad/s²] of the reference, largest over joints, in task space over the tool's rx ry rz: as recorded (exact), else
-  /// the `jump` of its acceleration
+  /// log₂ of the ratio of torque_jump_nm between dt and dt/2; NaN also where it is rounding alone
+  double torque_jump_order = unknown;
+  /// [rad/s²] of the reference, largest over joints, in task space over the tool's rx ry rz: as
+  /// recorded (exact), else the `jump` of its acceleration
   double acceleration_jump_rad_s2 = unknown;
   double acceleration_jump_m_s2 = unknown;  // [m/s²] likewise, over the tool's x y z
-  double tracking_max_rad = unknown;  // [rad] largest |ref − q| from the join to after_join later
+  /// [rad] largest |ref − q| over joints, from the join to after_join later
+  double tracking_max_rad = unknown;
   double tool_tracking_max_m = unknown;    // [m] likewise, distance of the tool from its reference
   double tool_tracking_max_rad = unknown;  // [rad] likewise, angle between them
-  double deviation_peak_rad =
-      unknown;  // [rad] largest |ref − dmp2's ref| from the join to the next, or to the end
-  double deviation_faded_s =
-      unknown;  // [s] from the join until it stays below faded_share of that; NaN: it does not
+  /// [rad] largest |ref − dmp2's ref| over joints, from the join to the next or to the end
+  double deviation_peak_rad = unknown;
+  /// [s] from the join until that stays below faded_share of its peak; NaN: it does not
+  double deviation_faded_s = unknown;
 };
 
-/// A whole run. Derivatives are differences between neighbouring ticks, xₖ₊₁ − xₖ over dt. NaN as above.
+/// A whole run. Derivatives are differences between neighbouring ticks, xₖ₊₁ − xₖ over dt: of a
+/// step they are its size over dt, so compare runs of the same dt. NaN as above.
 struct RunMetrics {
   std::vector<JoinMetrics> joins;
   double torque_jump_nm = unknown;  // worst over the joins; NaN where one could not be measured
@@ -79,13 +81,13 @@ struct RunMetrics {
   double tool_tracking_rms_rad = unknown;
   double tool_tracking_after_join_max_m = unknown;  // worst over the joins
   double tool_tracking_after_join_max_rad = unknown;
-  double saturated_share =
-      unknown;  // share of the ticks in which a joint's |torque| ≥ its effort limit
-  double deviation_peak_rad =
-      unknown;  // [rad] largest |ref − dmp2's ref| over joints and ticks: the price of smoothness
+  /// Share of the ticks in which a joint's commanded |torque| ≥ its effort limit
+  double saturated_share = unknown;
+  /// [rad] largest |ref − dmp2's ref| over joints and ticks: the price of smoothness
+  double deviation_peak_rad = unknown;
   double deviation_peak_m = unknown;  // [m] likewise, distance of the tool's references
-  /// [s] from the last join before that peak (of the joints) until the deviation stays below faded_share of it to the
-  /// end; NaN: it does not
+  /// [s] from the last join before deviation_peak_rad until the deviation stays below faded_share
+  /// of it to the end; NaN: it does not
   double deviation_faded_s = unknown;
 };
 
