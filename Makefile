@@ -27,7 +27,7 @@ micro: build/release/build.ninja       ## measure learning, and a step beside a 
 	build/release/bench/seam_micro --benchmark_report_aggregates_only
 meshes page:                           ## make the arm's meshes, or the report page's template, anew (needs Node.js)
 	cd $(if $(filter page,$@),bench/page,assets/pa10/source) && npm ci && npm run $@
-readme: bench ; bash bench/readme.sh   ## put the bench's figures into README.md
+readme: bench ; bash bench/readme.sh   ## put the figures of bench and experiments into the READMEs
 clean:                                 ## remove what was built
 	rm -rf build results
 

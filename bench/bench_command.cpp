@@ -16,6 +16,7 @@
 #include "bench/compare.hpp"
 #include "bench/figure.hpp"
 #include "bench/gate.hpp"
+#include "bench/gnuplot.hpp"
 #include "bench/names.hpp"
 #include "bench/page.hpp"
 #include "bench/report.hpp"
@@ -38,14 +39,6 @@ struct Options {
   bool update = false;
 };
 
-std::vector<std::string> own_scenes() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(SEAM_SCENES))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // What is set anew in each scene, at each speed.
 std::vector<std::vector<std::string>> overrides_of(const Options& options) {
   std::vector<std::string> all = options.overrides;
@@ -60,9 +53,9 @@ std::vector<std::vector<std::string>> overrides_of(const Options& options) {
 std::vector<Scene> read_scenes(const Options& options) {
   std::vector<Scene> scenes;
   std::set<std::string> seen;
-  for (const std::string& name : options.scenes.empty() ? own_scenes() : options.scenes)
+  for (const std::string& name : scene_files(options.scenes))
     for (const auto& overrides : overrides_of(options)) {
-      Scene& scene = scenes.emplace_back(Scene::read(scene_file(name), overrides));
+      Scene& scene = scenes.emplace_back(Scene::read(name, overrides));
       if (scene.speed != 1.0) scene.name += fmt::format("-{:g}x", scene.speed);
       if (!seen.insert(scene.name).second)
         throw Error("scene \"" + scene.name + "\"", "given twice");

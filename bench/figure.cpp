@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "bench/method_style.hpp"
+#include "bench/gnuplot.hpp"
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
 #include <seam/metrics.hpp>
@@ -36,12 +32,6 @@ Table alone(const Primitive& primitive, double begin, double dt) {
   return table;
 }
 
-std::string quoted(const std::string& text) {
-  std::string doubled;
-  for (const char c : text) doubled += c == '\'' ? "''" : std::string(1, c);
-  return "'" + doubled + "'";
-}
-
 std::string file_of(std::size_t step) {
   return fmt::format("primitive-{}.csv", step + 1);
 }
@@ -58,13 +48,6 @@ void write_primitives(const Comparison& comparison, const std::string& folder) {
   }
 }
 
-std::string style(Join method) {
-  const auto [colour, dash] = style_of(method);
-  const bool whole = dash[0] == 0;
-  return fmt::format("lc rgb '{}' lw 2.5 dt {}", colour,
-                     whole ? "1" : fmt::format("({},{})", dash[0], dash[1]));
-}
-
 // One curve per method of a recording's column; `x` is gnuplot's.
 std::string curves(const Comparison& comparison, const std::string& x, const std::string& column,
                    int every, const char* with) {
@@ -76,17 +59,9 @@ std::string curves(const Comparison& comparison, const std::string& x, const std
   return text;
 }
 
-std::string preamble(const Comparison& comparison, int width, int height) {
-  std::string text = fmt::format(
-      "# gnuplot -c THIS PICTURE.png\n"
-      "set terminal pngcairo size {},{} noenhanced font 'DejaVu Sans,17' background rgb 'white'\n"
-      "set output ARG1\n"
-      "set datafile separator ','\n"
-      "set datafile columnheaders\n"
-      "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\n"
-      "set border 3\nset tics nomirror\n"
-      "set lmargin 11\nset rmargin 3\nset key tmargin right horizontal maxrows 1 samplen 2\n",
-      width, height);
+// With a dotted line at each join.
+std::string with_joins(const Comparison& comparison, int width, int height) {
+  std::string text = preamble(width, height);
   for (const RecordedJoin& join : comparison.runs.front().recording.joins)
     text += fmt::format(
         "set arrow from {0}, graph 0 to {0}, graph 1 nohead dt 3 lw 2 lc rgb '#555555'\n",
@@ -112,7 +87,7 @@ std::string sequencing_script(const Comparison& comparison) {
   const Scene& scene = comparison.scene;
   const Recording& recording = comparison.runs.front().recording;
   const int every = std::max(1, recording.ticks() / curve_points);
-  std::string text = preamble(comparison, 1200, 1440);
+  std::string text = with_joins(comparison, 1200, 1440);
   text += fmt::format("set xrange [0:{}]\n", recording.time(recording.ticks() - 1));
   text += "set multiplot layout 4,1 title " + quoted(scene.title + ", " + scene.figure) + "\n";
   const std::string u = unit(scene);
@@ -141,7 +116,7 @@ std::string torque_script(const Comparison& comparison) {
   const double join = recording.joins.back().time;
   const double reach = 20e3 * comparison.scene.dt;  // [ms]
   const std::string column = "torque." + joint;
-  std::string text = preamble(comparison, 1200, 520);
+  std::string text = with_joins(comparison, 1200, 520);
   text += "set multiplot layout 1,2\nset xlabel 'time [s]'\nunset key\nset tmargin 3\n";
   text += "set ylabel " + quoted("torque of " + joint + " [N·m]") + "\n";
   text += fmt::format("set xrange [0:{}]\nplot {}\n", recording.time(recording.ticks() - 1),
@@ -158,7 +133,7 @@ std::string torque_script(const Comparison& comparison) {
 std::string signal_script(const Comparison& comparison, const Signal& signal) {
   const Recording& recording = comparison.runs.front().recording;
   const int every = std::max(1, recording.ticks() / curve_points);
-  std::string text = preamble(comparison, 1200, 520);
+  std::string text = with_joins(comparison, 1200, 520);
   if (comparison.scene.liquid)
     text += fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead lw 2 lc rgb '#888888'\n",
@@ -167,60 +142,6 @@ std::string signal_script(const Comparison& comparison, const Signal& signal) {
                       quoted(signal.name), recording.time(recording.ticks() - 1),
                       curves(comparison, "'time'", signal.name, every, "lines"));
   return text;
-}
-
-// Runs a program in a folder, its output in a log there; its exit status, 127 where it is not there.
-int run_in(const std::string& folder, std::vector<std::string> arguments, const std::string& log) {
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const pid_t child = fork();
-  if (child < 0) throw Error(folder, "no process for " + arguments[0]);
-  if (child == 0) {
-    const int output =
-        chdir(folder.c_str()) == 0 ? open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644) : -1;
-    if (output < 0) _exit(126);
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
-    close(STDIN_FILENO);
-    execvp(argv[0], argv.data());
-    _exit(127);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-std::string first_line_with_text(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  while (std::getline(file, line))
-    if (line.find_first_not_of(" \t^") != std::string::npos) return line;
-  return "it left no picture";
-}
-
-bool is_whole_png(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  return bytes.size() > 100 && bytes.substr(bytes.size() - 8, 4) == "IEND";
-}
-
-// The picture appears whole or not at all.
-void draw(const std::string& folder, const std::string& name, const std::string& script) {
-  write_whole(folder + "/" + name + ".gnuplot", script);
-  const std::string part = name + ".png.part";
-  const int status = run_in(folder, {"gnuplot", "-c", name + ".gnuplot", part}, "gnuplot.log");
-  const std::string picture = folder + "/" + name + ".png";
-  if (status == 0 && is_whole_png(folder + "/" + part)) {
-    std::filesystem::rename(folder + "/" + part, picture);
-    std::filesystem::remove(folder + "/gnuplot.log");
-    return;
-  }
-  const std::string reason = first_line_with_text(folder + "/gnuplot.log");
-  std::filesystem::remove(folder + "/" + part);
-  std::filesystem::remove(folder + "/gnuplot.log");
-  throw Error(picture, "gnuplot cannot draw it: " + reason);
 }
 
 }  // namespace
@@ -235,12 +156,6 @@ std::size_t most_disturbed_joint(const Eigen::VectorXd& time, const Eigen::Matri
   Eigen::Index joint = 0;
   worst.maxCoeff(&joint);
   return static_cast<std::size_t>(joint);
-}
-
-void require_gnuplot() {
-  const std::string log = "/dev/null";
-  if (run_in(".", {"gnuplot", "--version"}, log) != 0)
-    throw Error("gnuplot", "cannot be run, it is needed for the pictures (Debian: gnuplot-nox)");
 }
 
 void draw_figures(const Comparison& comparison, const std::string& dir) {

@@ -13,9 +13,6 @@ namespace seam {
 std::size_t most_disturbed_joint(const Eigen::VectorXd& time, const Eigen::MatrixXd& torque,
                                  const std::vector<double>& joins);
 
-/// @throws Error  there is no gnuplot
-void require_gnuplot();
-
 /// Draws a comparison with gnuplot into DIR/SCENE/: `SCENE.png`, laid out as the paper's Fig. 1
 /// (each primitive alone; joined position, velocity, acceleration of all methods), and `torque.png`
 /// (a joint's torque, whole and around the last join), and a picture of each signal that the scene adds. The scripts and data that they are drawn

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bench/bench_command.hpp"
+#include "bench/experiment_command.hpp"
 #include "bench/learn_command.hpp"
 #include "bench/metrics_command.hpp"
 #include "bench/report_command.hpp"
@@ -22,6 +23,7 @@ int run(int argc, char** argv) {
   seam::add_learn_command(app);
   seam::add_rollout_command(app);
   seam::add_sweep_command(app);
+  seam::add_experiment_command(app);
   seam::add_metrics_command(app);
   seam::add_report_command(app);
 

@@ -1,13 +1,41 @@
 #include "bench/names.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace seam {
 
+namespace {
+
+std::string file_of(const std::string& name, const std::string& folder) {
+  if (std::filesystem::is_regular_file(name) || name.find_first_of("./") != std::string::npos)
+    return name;
+  return folder + "/" + name + ".yaml";
+}
+
+std::vector<std::string> files_of(const std::vector<std::string>& names,
+                                  const std::string& folder) {
+  std::vector<std::string> files;
+  for (const std::string& name : names) files.push_back(file_of(name, folder));
+  if (!names.empty()) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
 std::string scene_file(const std::string& scene) {
-  if (std::filesystem::is_regular_file(scene) || scene.find_first_of("./") != std::string::npos)
-    return scene;
-  return std::string(SEAM_SCENES) + "/" + scene + ".yaml";
+  return file_of(scene, SEAM_SCENES);
+}
+
+std::vector<std::string> scene_files(const std::vector<std::string>& scenes) {
+  return files_of(scenes, SEAM_SCENES);
+}
+
+std::vector<std::string> experiment_files(const std::vector<std::string>& experiments) {
+  return files_of(experiments, SEAM_EXPERIMENTS);
 }
 
 std::vector<Join> read_methods(const std::vector<std::string>& names) {

@@ -7,8 +7,11 @@
 
 namespace seam {
 
-/// The file of a scene that is named on the command line: a file, or the name of one of the project's own.
+/// Files that are named on the command line: as they are, or as a name of one of the project's own; all of those
+/// where none is named.
 std::string scene_file(const std::string& scene);
+std::vector<std::string> scene_files(const std::vector<std::string>& scenes);
+std::vector<std::string> experiment_files(const std::vector<std::string>& experiments);
 
 /// Joining methods by their names; all of them where there are none. @throws Error  an unknown name
 std::vector<Join> read_methods(const std::vector<std::string>& names);

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Puts the figures that the bench left in results/ into README.md: the table between its two marks, and the pictures.
+# Puts the figures that the bench left in results/ into README.md: the table between its two marks, and the pictures;
+# and the answers of the experiments into bench/experiments/README.md.
 # `make readme` runs the bench first.
 set -eu
 cd "$(dirname "$0")/.."
@@ -12,3 +13,12 @@ for scene in line pouring wiping carrying catching; do
 done
 cp results/line/torque.png bench/pictures/line-torque.png
 cp results/carrying/wave_m.png bench/pictures/carrying-wave.png
+
+build/release/bench/seam experiment --out results/experiments
+answers=bench/experiments/README.md
+sed '/<!-- answers -->/q' $answers >$answers.part
+for question in speed joining-velocity kernel-width goal-change lag tick spilling; do
+  echo && cat results/experiments/$question.md
+  cp results/experiments/$question.png bench/experiments/
+done >>$answers.part
+mv $answers.part $answers

@@ -126,9 +126,7 @@ void hasten(double factor, Scene& scene) {
   scene.speed = factor;
   const Sequence& slow = scene.sequence;
   scene.sequence = changed(slow, slow.start_delay() / factor, [&](Sequence::Step& step) {
-    step.primitive.tau /= factor;
-    step.primitive.start_velocity *= factor;
-    step.primitive.start_acceleration *= factor * factor;
+    step.primitive = step.primitive.at_speed(factor);
     const auto when = step.until.when;
     if (when == Switch::When::after || when == Switch::When::before_end) step.until.value /= factor;
   });

@@ -21,7 +21,9 @@ LearnSettings settings_of(const std::string& motion) {
 TEST(Demos, AreWhatTheirScriptGenerates) {
   const TempFolder fresh;
   ASSERT_EQ(std::system(("sh " + folder + "generate.sh " + fresh.path("")).c_str()), 0);
-  for (const std::string& motion : motions) {
+  auto files = motions;
+  files.insert(files.end(), {"minimum_jerk", "minimum_jerk_on"});
+  for (const std::string& motion : files) {
     const std::string shipped = test::read_file(folder + motion + ".csv");
     EXPECT_FALSE(shipped.empty()) << motion;
     EXPECT_TRUE(test::read_file(fresh.path(motion + ".csv")) == shipped) << motion;

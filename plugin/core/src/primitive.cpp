@@ -66,6 +66,14 @@ void require_vector(const Eigen::VectorXd& value, Eigen::Index size, const Bound
 
 }  // namespace
 
+Primitive Primitive::at_speed(double factor) const {
+  Primitive faster = *this;
+  faster.tau /= factor;
+  faster.start_velocity *= factor;
+  faster.start_acceleration *= factor * factor;
+  return faster;
+}
+
 void Primitive::validate() const {
   require(dimensions() > 0, "no coordinates");
   const auto size = static_cast<std::size_t>(dimensions());

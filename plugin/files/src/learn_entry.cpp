@@ -47,13 +47,15 @@ Demonstration read_demonstration(const std::string& path, const DerivativeSettin
 Primitive learn_primitive(const YamlEntry& entry,
                           const std::optional<Eigen::Quaterniond>& reference) {
   entry.only({"demonstration", "kind", "period", "kernels", "width", "precision", "method", "alpha",
-              "gains", "cutoff"});
+              "gains", "cutoff", "speed"});
   const LearnSettings settings = read_settings(entry);
   DerivativeSettings derivatives;
   if (const auto cutoff = entry.find("cutoff")) derivatives.cutoff = cutoff->positive();
+  const auto faster = entry.find("speed");
+  const double speed = faster ? faster->positive() : 1.0;
   const YamlEntry file = entry.at("demonstration");
   return at_key(file, [&] {
-    return learn(read_demonstration(file.path(), derivatives, reference), settings);
+    return learn(read_demonstration(file.path(), derivatives, reference), settings).at_speed(speed);
   });
 }
 

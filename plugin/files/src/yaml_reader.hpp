@@ -39,6 +39,7 @@ class YamlEntry {
   std::vector<std::pair<std::string, YamlEntry>> entries() const;
 
   bool is_text() const { return node_.IsScalar(); }
+  bool is_list() const { return node_.IsSequence(); }
   std::string text() const;
   /// One of these texts. @return  its index
   std::size_t choice(std::initializer_list<const char*> texts) const;

@@ -82,6 +82,8 @@ struct Primitive {
   std::optional<Eigen::Quaterniond> reference_orientation = std::nullopt;
 
   int dimensions() const { return static_cast<int>(goal.size()); }
+  /// The same movement, faster by a factor > 0.
+  Primitive at_speed(double factor) const;
 
   /// @throws Error  names the first entry that cannot be executed: sizes that do not match, values
   ///                that are not finite or out of the bounds above, coordinate names that repeat, a

@@ -41,7 +41,8 @@ struct SequenceFile {
 ///
 /// A demonstration is learned with LearnSettings and DerivativeSettings, all optional: kind, period
 /// [s], kernels, width, precision [m or rad], method (least_squares, recursive, locally_weighted),
-/// alpha, gains: {K, D, H} (D and H optional: critical), cutoff [Hz].
+/// alpha, gains: {K, D, H} (D and H optional: critical), cutoff [Hz]; and speed, a factor by which the movement is
+/// played faster than it was shown.
 ///
 /// `reference`, a unit quaternion x y z w, is the reference orientation of all primitives with the
 /// coordinates rx ry rz: the columns qx qy qz qw of demonstrations are turned from it, primitives

@@ -1,0 +1,94 @@
+#include "bench/experiment_command.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bench/experiment.hpp"
+#include "bench/gnuplot.hpp"
+#include "bench/names.hpp"
+#include <seam/error.hpp>
+
+namespace seam {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> experiments;
+  std::string scene;
+  std::vector<std::string> overrides;
+  std::vector<double> values;
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::string out = "results/experiments";
+  bool list = false;
+};
+
+Experiment read(const std::string& file, const Options& options) {
+  Experiment experiment = Experiment::read(file);
+  if (!options.scene.empty()) {
+    experiment.scene = scene_file(options.scene);
+    experiment.overrides.clear();
+  }
+  experiment.overrides.insert(experiment.overrides.end(), options.overrides.begin(),
+                              options.overrides.end());
+  if (!options.values.empty()) experiment.values = options.values;
+  if (!std::is_sorted(experiment.values.begin(), experiment.values.end()))
+    throw Error("--values", "must increase");
+  return experiment;
+}
+
+void answer_all(const Options& options) {
+  std::vector<Experiment> experiments;
+  for (const std::string& file : experiment_files(options.experiments))
+    experiments.push_back(read(file, options));
+  if (options.list) {
+    for (const Experiment& experiment : experiments)
+      fmt::print("{:18}  {}\n", experiment.name, experiment.title);
+    return;
+  }
+  require_gnuplot();
+  for (const Experiment& experiment : experiments) {
+    const auto progress = [&](int done, int total) {
+      if (!isatty(STDERR_FILENO)) return;
+      fmt::print(stderr, "\r\033[K{} {}/{}{}", experiment.name, done, total,
+                 done == total ? "\r\033[K" : "");
+      std::fflush(stderr);
+    };
+    const std::vector<Measured> measured = perform(experiment, options.jobs, progress);
+    write_experiment(experiment, measured, options.out);
+    fmt::print("{}\n\n{}\n\n{}\n{}/{}.png\n\n", experiment.title, answer(experiment, measured),
+               table(experiment, measured), options.out, experiment.name);
+  }
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "experiment", "vary one entry of a scene: a table and a plot of what comes of it");
+  command.add_option("experiments", options->experiments,
+                     "experiment files, or names of seam's own (default: all of those)");
+  command.add_flag("--list", options->list, "name the experiments, a line each, and do none");
+  command.add_option("--scene", options->scene, "your own scene instead of the experiment's");
+  command
+      .add_option("--set", options->overrides,
+                  "key=value: an entry of the scene file set anew; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--values", options->values, "values of what is varied, e.g. 0.5,1,1.5")
+      ->allow_extra_args(false)
+      ->delimiter(',');
+  command.add_option("--jobs", options->jobs, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_option("--out", options->out, "folder for the results")->capture_default_str();
+  command.footer(
+      "Example: seam experiment speed --scene my.yaml   # which join, for my robot, at my speed?");
+  command.callback([options] { answer_all(*options); });
+}
+
+}  // namespace seam
