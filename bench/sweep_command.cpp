@@ -79,9 +79,12 @@ void sweep(const Options& options) {
   Bar bar(before);
   run_sweep(sweep, shard, options.jobs, file,
             [&](std::int64_t done, std::int64_t total) { bar.show(done, total); });
-  fmt::print("{}: {} samples, each with {} methods{}\n", options.out, contents.size(),
-             contents.plan.methods.size(),
-             before > 0 ? fmt::format("; {} were there already", before) : "");
+  fmt::print("{}: {} samples, each with {} methods", options.out, contents.size(),
+             contents.plan.methods.size());
+  if (before > 0) fmt::print("; {} were there already", before);
+  if (file.refused() > 0)
+    fmt::print("; {} were refused by the scene, their status says why", file.refused());
+  fmt::print("\n");
 }
 
 void sweep_or_merge(const Options& options) {

@@ -131,10 +131,11 @@ bool SweepRows::has(std::int64_t sample) const {
   return places_[static_cast<std::size_t>(sample)].begin >= 0;
 }
 
-void SweepRows::add(std::int64_t sample, std::int64_t begin, std::size_t length) {
-  places_[static_cast<std::size_t>(sample)] = {begin, static_cast<std::uint32_t>(length),
+void SweepRows::add(std::int64_t sample, std::int64_t begin, const std::string& rows) {
+  places_[static_cast<std::size_t>(sample)] = {begin, static_cast<std::uint32_t>(rows.size()),
                                                static_cast<std::uint32_t>(files_.size() - 1)};
   ++count_;
+  if (rows.find(",ok\n") == std::string::npos) ++refused_;
 }
 
 std::int64_t SweepRows::add(const std::string& path, const SweepContents& contents,
@@ -165,20 +166,20 @@ std::int64_t SweepRows::add(const std::string& path, const SweepContents& conten
   std::int64_t end = file.tellg();
   while (true) {
     std::int64_t sample = -1;
-    std::size_t length = 0;
+    std::string rows;
     for (const Join method : contents.plan.methods) {
       ++number;
       if (!whole_line()) return end;
-      if (length == 0) sample = sample_of();
+      if (rows.empty()) sample = sample_of();
       if (line.rfind(contents.row_begin(sample, method), 0) != 0)
         fail("is not a row of this sweep");
-      length += line.size() + 1;
+      rows += line + "\n";
     }
     if (!has(sample))
-      add(sample, end, length);
+      add(sample, end, rows);
     else if (again)
       again(sample);
-    end += static_cast<std::int64_t>(length);
+    end += static_cast<std::int64_t>(rows.size());
   }
 }
 
@@ -251,7 +252,7 @@ void SweepFile::write(const std::string& text) {
 void SweepFile::append(std::int64_t sample, const std::string& rows) {
   const std::int64_t begin = end_;
   write(rows);
-  rows_.add(sample, begin, rows.size());
+  rows_.add(sample, begin, rows);
 }
 
 void SweepFile::finish() {

@@ -45,9 +45,11 @@ class SweepRows {
   /// @throws Error  cannot be read, a row that is not of this sweep (names file and line)
   std::int64_t add(const std::string& path, const SweepContents& contents,
                    const std::function<void(std::int64_t sample)>& again = {});
-  void add(std::int64_t sample, std::int64_t begin, std::size_t length);  // to the last file
+  /// Takes a sample that was written to the last of the files.
+  void add(std::int64_t sample, std::int64_t begin, const std::string& rows);
   bool has(std::int64_t sample) const;
   std::int64_t count() const { return count_; }
+  std::int64_t refused() const { return refused_; }  // those whose status is not "ok"
   /// Writes all of them in order. @throws Error  a file cannot be read any more
   void copy(std::ostream& out) const;
 
@@ -61,6 +63,7 @@ class SweepRows {
   std::vector<std::string> files_;
   std::vector<Place> places_;
   std::int64_t count_ = 0;
+  std::int64_t refused_ = 0;
 };
 
 /// The file that a sweep fills, sample by sample. While it grows its rows are in FILE.rows, in the order in which they were
@@ -73,6 +76,7 @@ class SweepFile {
 
   bool has(std::int64_t sample) const { return rows_.has(sample); }
   std::int64_t done() const { return rows_.count(); }
+  std::int64_t refused() const { return rows_.refused(); }
   /// The rows of a sample, whole lines. @throws Error  cannot be written; what was there is as before
   void append(std::int64_t sample, const std::string& rows);
   /// To be called when all samples are there. @throws Error  cannot be written; FILE.rows stays

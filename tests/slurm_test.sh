@@ -24,11 +24,11 @@ stop() {
 trap stop EXIT
 # Waits until a command succeeds.
 await() {
-  for _ in $(seq 300); do
+  for _ in $(seq 900); do
     if "$@" >/dev/null 2>&1; then return; fi
     sleep 0.2
   done
-  echo "not within a minute: $*"
+  echo "not within three minutes: $*"
   return 1
 }
 
