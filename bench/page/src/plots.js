@@ -82,7 +82,7 @@ export class Plots {
     const axis = { stroke: ink, font: '11px system-ui, sans-serif', grid: { stroke: colour_of('--grid'), width: 1 }, ticks: { stroke: colour_of('--grid'), width: 1, size: 4 } };
     return {
       width: this.width(),
-      height: last ? 178 : 150,
+      height: last ? 168 : 150,
       legend: { show: false },
       padding: [8, 12, last ? 0 : 4, 0],
       cursor: {
@@ -93,7 +93,7 @@ export class Plots {
       },
       scales: { x: { time: false }, y: { range: y_range } },
       axes: [
-        { ...axis, size: last ? 44 : 18, label: last ? 'time [s]' : undefined, labelFont: '12px system-ui, sans-serif', labelSize: 18, space: 60 },
+        { ...axis, size: last ? 22 : 18, label: last ? 'time [s]' : undefined, labelFont: '12px system-ui, sans-serif', labelSize: 16, space: 60 },
         { ...axis, size: 58, space: 28, values: (_, splits) => ticks(splits) },
       ],
       series: [

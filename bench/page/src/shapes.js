@@ -67,33 +67,45 @@ export function part_geometries(part, files) {
     .map((group) => ({ geometry: mergeGeometries(group.map((p) => p.geometry)), alpha: Math.min(...group.map((p) => p.alpha)) }));
 }
 
-// A liquid in an upright glass: wall and surface, the surface tilted by `tilt(wave_x, wave_y)` [m at the wall].
+// J1(x) for x up to 2, to 1e-5.
+const bessel = (x) => (x / 2) * (1 - (x * x) / 8 + x ** 4 / 192 - x ** 6 / 9216 + x ** 8 / 737280);
+const first_zero = 1.8412; // of its derivative
+
+// A liquid in an upright glass: bottom, wall, and the surface as its first mode shapes it, by the heights [m] that a wave has
+// at the wall along x and y.
 export function liquid_geometry({ radius, depth }) {
   const around = 48;
+  const rings = [0.999, 0.75, 0.5, 0.25, 0];
   const R = 0.985 * radius;
-  const positions = new Float32Array((2 * around + 2) * 3);
-  const index = [];
-  const bottom = 2 * around;
-  const top = bottom + 1;
-  for (let i = 0; i < around; ++i) {
-    const next = (i + 1) % around;
+  const bottom = [];
+  const surface = [];
+  for (let i = 0; i <= around; ++i) {
     const a = (2 * Math.PI * i) / around;
-    positions.set([R * Math.cos(a), R * Math.sin(a), 0.001, R * Math.cos(a), R * Math.sin(a), depth], 6 * i);
-    index.push(2 * i, 2 * next, 2 * i + 1, 2 * next, 2 * next + 1, 2 * i + 1);
-    index.push(bottom, 2 * next, 2 * i, top, 2 * i + 1, 2 * next + 1);
+    bottom.push(R * Math.cos(a), R * Math.sin(a), 0.001);
+    for (const share of rings) surface.push(share * R * Math.cos(a), share * R * Math.sin(a), depth);
   }
-  positions.set([0, 0, 0.001, 0, 0, depth], 3 * bottom);
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-  geometry.setIndex(index);
-  geometry.computeVertexNormals();
-  const tilt = (wave_x, wave_y) => {
-    for (let i = 0; i < around; ++i) {
-      const a = (2 * Math.PI * i) / around;
-      positions[6 * i + 5] = Math.max(0.002, depth + wave_x * Math.cos(a) + wave_y * Math.sin(a));
+  const first = around + 1;
+  const wall_or_surface = (i, k) => (k < 0 ? i : first + i * rings.length + k);
+  const index = [];
+  for (let i = 0; i < around; ++i)
+    for (let k = -1; k < rings.length - 1; ++k) {
+      const corners = [[i, k], [i + 1, k], [i, k + 1], [i + 1, k + 1]].map(([j, ring]) => wall_or_surface(j, ring));
+      index.push(corners[0], corners[1], corners[2], corners[1], corners[3], corners[2]);
     }
-    geometry.attributes.position.needsUpdate = true;
+  const geometry = new THREE.BufferGeometry();
+  const positions = new THREE.BufferAttribute(new Float32Array([...bottom, ...surface]), 3);
+  geometry.setAttribute('position', positions);
+  geometry.setIndex(index);
+  const shape = rings.map((share) => bessel(first_zero * share) / bessel(first_zero));
+  const tilt = (wave_x, wave_y) => {
+    for (let i = 0; i <= around; ++i) {
+      const a = (2 * Math.PI * i) / around;
+      const wave = wave_x * Math.cos(a) + wave_y * Math.sin(a);
+      rings.forEach((_, k) => positions.setZ(wall_or_surface(i, k), Math.max(0.002, depth + shape[k] * wave)));
+    }
+    positions.needsUpdate = true;
     geometry.computeVertexNormals();
   };
+  tilt(0, 0);
   return { geometry, tilt };
 }

@@ -135,6 +135,7 @@ export class View {
     by_id('no-view').textContent = words;
     by_id('no-view').hidden = !words;
     by_id('replay').classList.toggle('empty', !shown.length);
+    by_id('replay').classList.toggle('alone', shown.length === 1);
   }
 
   // Near the tool of the solid arm, going where it goes.
