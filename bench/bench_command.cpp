@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "bench/columns.hpp"
 #include "bench/compare.hpp"
@@ -19,6 +18,7 @@
 #include "bench/gnuplot.hpp"
 #include "bench/names.hpp"
 #include "bench/page.hpp"
+#include "bench/progress.hpp"
 #include "bench/report.hpp"
 #include <seam/error.hpp>
 
@@ -73,12 +73,6 @@ std::string own_method(const std::string& scene) {
   if (!method)
     throw Error(scene, "has no key \"method\", needs --method dmp2, dmp2a, dmp3 or dmp2j");
   return std::string(to_string(*method));
-}
-
-void show_progress(int done, int total, const std::string& what) {
-  if (!isatty(STDERR_FILENO)) return;
-  fmt::print(stderr, "\r\033[K{}/{} {}{}", done, total, what, done == total ? "\r\033[K" : "");
-  std::fflush(stderr);
 }
 
 void print(const Comparison& comparison) {

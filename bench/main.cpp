@@ -7,6 +7,7 @@
 #include "bench/experiment_command.hpp"
 #include "bench/learn_command.hpp"
 #include "bench/metrics_command.hpp"
+#include "bench/render_command.hpp"
 #include "bench/report_command.hpp"
 #include "bench/rollout_command.hpp"
 #include "bench/sweep_command.hpp"
@@ -24,6 +25,7 @@ int run(int argc, char** argv) {
   seam::add_rollout_command(app);
   seam::add_sweep_command(app);
   seam::add_experiment_command(app);
+  seam::add_render_command(app);
   seam::add_metrics_command(app);
   seam::add_report_command(app);
 

@@ -11,6 +11,8 @@ mv README.md.part README.md
 for scene in line pouring wiping carrying catching; do
   cp results/$scene/$scene.png bench/pictures/$scene.png
 done
+build/release/bench/seam render results/carrying --compare dmp2,dmp3 --inset --size 880x440 --from 0.6 --to 2 --speed 0.25 --fps 15 \
+  -o bench/pictures/carrying.webp
 cp results/line/torque.png bench/pictures/line-torque.png
 cp results/carrying/wave_m.png bench/pictures/carrying-wave.png
 

@@ -1,6 +1,7 @@
 #include "scenes/object.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -110,6 +111,39 @@ class JointFriction final : public Object {
   double dt_;
 };
 
+// A glass that stands where the goal is seen: nothing but a sight.
+class MovingGlass final : public Object {
+ public:
+  explicit MovingGlass(const Scene& scene) : scene_(scene) {}
+
+  void pre_tick(Eigen::Index) override {}
+  void finish(Recording&) const override {}
+  void appear(Replay& replay) override {
+    part_ = replay.parts.size();
+    replay.parts.push_back({"glass", {}, VesselSettings{0.033, 0.08, 0.002, 0.0}});
+  }
+  void film(Eigen::Index frame, Replay& replay) const override {
+    const double time = static_cast<double>(frame) / replay.frame_rate;
+    Eigen::Vector3d goal = scene_.sequence.steps().front().primitive.goal.head<3>();
+    for (const Event& event : scene_.events)
+      if (event.what == Event::What::goal && event.at <= time)
+        for (int i = 0; i < 3; ++i)
+          if (!std::isnan(event.goal(i))) goal(i) = event.goal(i);
+    replay.set_pose(frame, part_, Eigen::Isometry3d(Eigen::Translation3d(goal - below_)));
+  }
+
+ private:
+  const Scene& scene_;
+  const Eigen::Vector3d below_{0.0, 0.0, 0.06};  // [m] of its bottom below the tool that takes it
+  std::size_t part_ = 0;
+};
+
+bool has_moving_goal(const Scene& scene) {
+  return scene.tool &&
+         std::any_of(scene.events.begin(), scene.events.end(),
+                     [](const Event& event) { return event.what == Event::What::goal; });
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, double dt,
@@ -118,6 +152,7 @@ std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& rob
   if (scene.liquid) objects.push_back(std::make_unique<SloshingLiquid>(scene, robot, ticks));
   if (scene.friction) objects.push_back(std::make_unique<JointFriction>(scene, robot, dt));
   if (scene.pouring) objects.push_back(std::make_unique<PouredGrains>(scene, robot, place));
+  if (has_moving_goal(scene)) objects.push_back(std::make_unique<MovingGlass>(scene));
   return objects;
 }
 
