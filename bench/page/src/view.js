@@ -6,7 +6,7 @@ import { by_id, fill, make } from './dom.js';
 import { row_at } from './data.js';
 import { part_geometries, unpack_meshes } from './shapes.js';
 
-const view_angle = 29; // [deg]
+const view_angle = 33; // [deg]
 const close_distance = 0.75; // [m]
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
