@@ -90,9 +90,11 @@ bool EglContext::open(void* display) {
   return false;
 }
 
+// The display stays open: others in the process may draw on it.
 EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglTerminate(display_);
+  eglDestroyContext(display_, context_);
+  eglDestroySurface(display_, surface_);
 }
 
 std::string EglContext::renderer() const {
