@@ -145,7 +145,11 @@ std::int64_t SweepRows::add(const std::string& path, const SweepContents& conten
   files_.push_back(path);
   std::string line;
   std::int64_t number = 1;
-  const auto whole_line = [&] { return std::getline(file, line) && !file.eof(); };
+  const auto whole_line = [&] {
+    const bool read = std::getline(file, line) && !file.eof();
+    if (file.bad()) throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
+    return read;
+  };
   const auto fail = [&](const std::string& what) {
     throw Error(fmt::format("{}:{}", path, number), what);
   };
@@ -189,9 +193,8 @@ void SweepRows::copy(std::ostream& out) const {
   std::string rows;
   for (const Place& place : places_) {
     if (place.begin < 0) continue;
-    if (!file.is_open() || opened != place.file) {
+    if (!file.is_open() || opened != place.file)
       file = std::ifstream(files_[opened = place.file], std::ios::binary);
-    }
     rows.resize(place.length);
     file.seekg(place.begin);
     if (!file.read(rows.data(), place.length))
