@@ -145,8 +145,9 @@ void Controller::apply_torque(const Eigen::VectorXd& torque) noexcept {
     applied_ = torque - applied_;
   else
     applied_ = torque;
-  for (int i = 0; i < applied_.size(); ++i) multibody.addJointTorque(i, applied_(i));
-  if (!still_stands) multibody.addBaseTorque(btVector3(mark, 0.0, 0.0));
+  for (int i = 0; i < applied_.size(); ++i)
+    multibody.addJointTorque(i, static_cast<btScalar>(applied_(i)));
+  if (!still_stands) multibody.addBaseTorque(btVector3(btScalar(mark), 0, 0));
   applied_ = torque;
   base_torque_ = multibody.getBaseTorque().x();
   marked_ = true;

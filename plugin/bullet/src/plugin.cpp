@@ -30,7 +30,7 @@ void Plugin::remove(Controller& controller) noexcept {
   controller.plugin_ = nullptr;
 }
 
-void Plugin::pre_tick(btDynamicsWorld* world, double dt) {
+void Plugin::pre_tick(btDynamicsWorld* world, btScalar dt) {
   const auto* plugin = static_cast<const Plugin*>(world->getWorldUserInfo());
   for (Controller* controller : plugin->controllers_) controller->pre_tick(dt);
 }

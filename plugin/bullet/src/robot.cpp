@@ -5,6 +5,7 @@
 
 #include "bullet_types.hpp"
 #include "multibody.hpp"
+#include "one_precision.hpp"
 #include "shapes.hpp"
 #include <seam/robot.hpp>
 
@@ -34,6 +35,7 @@ struct Robot::Parts {
 Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
                     const RobotSettings& settings)
     : model(std::move(robot_model)), world(in_world) {
+  require_one_precision();
   for (const Body& body : model.bodies) frames.push_back(link_frame(body.inertial));
   multibody = make_multibody(model, frames);
   multibody->setHasSelfCollision(settings.self_collision);

@@ -4,10 +4,11 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/per_joint.hpp>
 #include <seam/robot_model.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// What becomes of a commanded torque on its way to the joint; by default nothing.
 struct ActuatorSettings {

@@ -2,10 +2,11 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/inverse_dynamics.hpp>
 #include <seam/join.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 struct ControlSettings {
   /// `matched`: the acceleration that Bullet's semi-implicit integrator needs to arrive at the next

@@ -8,12 +8,13 @@
 
 #include <seam/actuator.hpp>
 #include <seam/computed_torque.hpp>
+#include <seam/export.hpp>
 #include <seam/joint_reference.hpp>
 #include <seam/robot.hpp>
 #include <seam/sensor.hpp>
 #include <seam/sequencer.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 class Plugin;
 

@@ -4,9 +4,10 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/robot_model.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Inverse dynamics of a fixed-base robot by Bullet's `MultiBodyTree` (recursive Newton-Euler):
 ///     torque = M(q)·q̈ + h(q, q̇) − Jᵀ(q)·m·g   (summed over the bodies),

@@ -2,9 +2,10 @@
 
 #include <Eigen/LU>
 
+#include <seam/export.hpp>
 #include <seam/kinematics.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Where a tool should be and how it should move, in the frame of the robot's base: (v, ω) and (v̇, ω̇).
 struct ToolState {

@@ -6,12 +6,13 @@
 
 #include <Eigen/Geometry>
 
+#include <seam/export.hpp>
 #include <seam/inverse_kinematics.hpp>
 #include <seam/join.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// How far a tool is from where its sequence has it.
 struct ToolError {

@@ -5,9 +5,10 @@
 
 #include <Eigen/Geometry>
 
+#include <seam/export.hpp>
 #include <seam/robot_model.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Linear part first, then angular: velocity [m/s, rad/s], acceleration, or wrench [N, N·m].
 using Vector6d = Eigen::Matrix<double, 6, 1>;

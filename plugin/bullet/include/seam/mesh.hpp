@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// A triangle mesh of one colour.
 struct Mesh {

@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// A setting that is one number for all joints, or a number for each.
 class PerJoint {

@@ -2,10 +2,13 @@
 
 #include <vector>
 
+#include <seam/export.hpp>
+#include <seam/precision.hpp>
+
 class btDynamicsWorld;
 class btMultiBodyDynamicsWorld;
 
-namespace seam {
+namespace SEAM_API seam {
 
 class Controller;
 
@@ -28,7 +31,7 @@ class Plugin {
   void remove(Controller& controller) noexcept;
 
  private:
-  static void pre_tick(btDynamicsWorld* world, double dt);
+  static void pre_tick(btDynamicsWorld* world, btScalar dt);
 
   btMultiBodyDynamicsWorld& world_;
   std::vector<Controller*> controllers_;

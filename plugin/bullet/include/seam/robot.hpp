@@ -7,12 +7,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <seam/export.hpp>
+#include <seam/precision.hpp>
 #include <seam/robot_model.hpp>
 
 class btMultiBody;
 class btMultiBodyDynamicsWorld;
 
-namespace seam {
+namespace SEAM_API seam {
 
 struct RobotSettings {
   Eigen::Isometry3d X_world_base = Eigen::Isometry3d::Identity();  // pose of the URDF's root link
@@ -34,7 +36,7 @@ struct RobotSettings {
 /// static. The world is borrowed and must outlive the robot.
 class Robot {
  public:
-  /// @throws Error  see RobotModel::read and load_mesh
+  /// @throws Error  see RobotModel::read and load_mesh; Bullet's libraries of both precisions are loaded
   static Robot load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
                     const RobotSettings& settings = {});
   Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSettings& settings = {});

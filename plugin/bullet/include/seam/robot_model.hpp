@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// Mass properties of a body in some frame.
 struct Inertial {

@@ -4,11 +4,12 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/noise.hpp>
 #include <seam/per_joint.hpp>
 #include <seam/robot_model.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// What becomes of the joints' state on its way to the controller; by default nothing.
 struct SensorSettings {

@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/primitive.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// The canonical system and the kernels of a primitive, ready for evaluation in a hot path. The phase p
 /// is x or φ; with s = x (discrete) or 1 (rhythmic) the regressor is

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// A sum of many small terms, such as a time that steps add up to, that does not drift: what an addition rounds off
 /// is kept and added with the next (Kahan). After n terms the error is of one rounding, not of n.

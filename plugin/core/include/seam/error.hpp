@@ -3,7 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// What every failing set-up call of seam throws: one line that names the file (or object), the
 /// place in it, the value found, and what would be right, as in

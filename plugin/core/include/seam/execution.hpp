@@ -6,11 +6,12 @@
 
 #include <seam/basis.hpp>
 #include <seam/compensated_sum.hpp>
+#include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/primitive.hpp>
 #include <seam/propagator.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// A primitive while it runs: its state, its own copy of the weights, and the integration of its equations.
 /// Construction allocates; nothing after it does, and nothing after it throws.

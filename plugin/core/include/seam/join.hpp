@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// How an execution takes over from whatever ran before it.
 enum class Join {

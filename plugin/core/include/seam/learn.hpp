@@ -1,9 +1,10 @@
 #pragma once
 
 #include <seam/demonstration.hpp>
+#include <seam/export.hpp>
 #include <seam/primitive.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// How the weights follow from A (Eq. 15) and f* (Eq. 12).
 enum class LearnMethod {

@@ -5,9 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/recording.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Not measured.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

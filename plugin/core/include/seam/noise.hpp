@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <random>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// Normally distributed noise of standard deviation 1, the same bits on every platform: the sum of twelve even numbers
 /// in [0, 1), less 6, which lies within ±6.

@@ -7,8 +7,9 @@
 #include <Eigen/Geometry>
 
 #include <seam/demonstration.hpp>
+#include <seam/export.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Orientation as three coordinates: the rotation vector ρ that turns a reference orientation q₀
 /// into q,

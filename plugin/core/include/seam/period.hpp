@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 
 #include <seam/demonstration.hpp>
+#include <seam/export.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Period T [s] of a rhythmic demonstration of two periods or more. The lag at which the movement
 /// is most like itself (the mean square of y(t + T) − y(t), over all coordinates, is less than a

@@ -8,7 +8,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// Gains of the transformation system (Eqs. 1 and 5). Stability needs K, D, H > 0.
 struct Gains {

@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 
+#include <seam/export.hpp>
 #include <seam/primitive.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// One step of length dt of the linear system
 ///     τ²ÿ = K(g − y) − Dτẏ + f + e,   ë = −2λė − λ²e,   λ = H/τ

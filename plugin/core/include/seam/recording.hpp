@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// A join in a recording.
 struct RecordedJoin {

@@ -6,9 +6,10 @@
 #include <Eigen/Core>
 
 #include <seam/basis.hpp>
+#include <seam/export.hpp>
 #include <seam/learn.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Learns from samples as they arrive (Eqs. 16, 17), with a = a(p) a row of A:
 ///     P ← P − P a aᵀ P/(1 + aᵀ P a),  w ← w + (f* − aᵀw)·P a,  P₀ = λI,  w₀ = 0

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include <seam/basis.hpp>
+#include <seam/export.hpp>
 #include <seam/primitive.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// When a primitive hands over to the next (the last one: when the sequence counts as finished).
 struct Switch {

@@ -8,11 +8,12 @@
 
 #include <seam/compensated_sum.hpp>
 #include <seam/execution.hpp>
+#include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/sequence.hpp>
 #include <seam/time_scale.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// What happened at a join: the one-sided accelerations and jerks, from the equations and not from samples, in the
 /// sequence's own time (see Sequencer::set_rate).

@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// A CSV file with a header: named columns of numbers.
 struct Table {

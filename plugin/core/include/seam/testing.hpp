@@ -13,9 +13,10 @@
 #include <string>
 #include <vector>
 
+#include <seam/export.hpp>
 #include <seam/metrics.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 namespace detail {
 

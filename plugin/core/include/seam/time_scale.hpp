@@ -1,6 +1,8 @@
 #pragma once
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// A clock that can be slowed, hastened and stopped without a step: the time s of a motion against real
 /// time t. The rate ρ = ds/dt moves to another over a given time T along the quintic that begins with

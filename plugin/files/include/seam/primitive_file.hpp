@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include <seam/export.hpp>
 #include <seam/primitive.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// Reads a primitive from a YAML file of the format `seam-primitive 1` or `2`, which adds the key
 /// `reference`. What write_primitive has written comes back bit for bit. All keys but `reference`

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/sequence.hpp>
 
-namespace seam {
+namespace SEAM_API seam {
 
 /// A sequence and what a file says beside it.
 struct SequenceFile {

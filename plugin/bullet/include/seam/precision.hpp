@@ -1,0 +1,35 @@
+#pragma once
+
+#include <LinearMath/btScalar.h>
+
+#include <seam/export.hpp>
+
+// Bullet is built in double or in float, and so is seam: seam::bullet, seam::bullet-float32. One program takes one kind.
+// Mixing them would go wrong at run time, so it is stopped here, or by the linker.
+#if defined(SEAM_BULLET_MIXED)
+#error "this target links seam in one precision and Bullet in the other: take seam::bullet with Bullet's -float64 \
+libraries, or seam::bullet-float32 with its float libraries"
+#elif defined(SEAM_BULLET_FLOAT64) && defined(SEAM_BULLET_FLOAT32)
+#error "both seam::bullet and seam::bullet-float32 are linked: take one"
+#elif defined(SEAM_BULLET_FLOAT64) && !defined(BT_USE_DOUBLE_PRECISION)
+#error "seam::bullet needs BT_USE_DOUBLE_PRECISION and Bullet's -float64 libraries: with Bullet in float, take \
+seam::bullet-float32"
+#elif defined(SEAM_BULLET_FLOAT32) && defined(BT_USE_DOUBLE_PRECISION)
+#error "seam::bullet-float32 does not go with BT_USE_DOUBLE_PRECISION: with Bullet in double, take seam::bullet"
+#endif
+
+namespace SEAM_API seam {
+
+// Each is in one of the two libraries alone: with the other one the linker names what is missing.
+extern const char this_needs_seam_bullet;
+extern const char this_needs_seam_bullet_float32;
+
+#ifdef BT_USE_DOUBLE_PRECISION
+static_assert(sizeof(btScalar) == 8, "btScalar must be double");
+[[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet;
+#else
+static_assert(sizeof(btScalar) == 4, "btScalar must be float");
+[[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet_float32;
+#endif
+
+}  // namespace seam

@@ -1,0 +1,31 @@
+# Debian packages, made by `cpack --preset package`: libseam0 with the libraries, libseam-dev with what it takes to build
+# on them.
+
+set(CPACK_PACKAGE_NAME seam)
+set(CPACK_PACKAGE_CONTACT "seam authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libs)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libseam${PROJECT_VERSION_MAJOR})
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Movement primitives on a Bullet arm: shared libraries, for Bullet in double and in float.")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_CURRENT_BINARY_DIR})
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libseam-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Movement primitives on a Bullet arm: headers, CMake and pkg-config files.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libseam${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), \
+libeigen3-dev (>= 3.4), libbullet-dev, libbullet-extras-dev")
+if(NOT BUILD_SHARED_LIBS)
+  set(CPACK_COMPONENTS_ALL development)
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libbullet-dev, libbullet-extras-dev, \
+liburdfdom-dev, libconsole-bridge-dev, libassimp-dev, libtinyxml2-dev, libyaml-cpp-dev")
+endif()
+include(CPack)

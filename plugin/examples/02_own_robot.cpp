@@ -1,0 +1,52 @@
+// Your own robot: any URDF of a fixed arm, standing anywhere. Every joint goes a tenth of its range away from the middle
+// and comes back, handing over while it still moves; the program says how closely the joints followed.
+//     own_robot robot.urdf
+
+#include <algorithm>
+#include <iostream>
+
+#include "example.hpp"
+#include <seam/bullet.hpp>
+#include <seam/seam.hpp>
+
+int main(int argc, char** argv) try {
+  if (argc != 2) throw seam::Error("usage", "own_robot robot.urdf");
+  World world;
+  seam::RobotSettings place;  // on a tilted stand
+  place.X_world_base.translate(Eigen::Vector3d(0.5, -0.2, 1.0));
+  place.X_world_base.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
+  place.self_collision = false;  // the shapes of some URDFs overlap
+  seam::Robot arm = seam::Robot::load(argv[1], world.bullet, place);
+
+  std::vector<std::string> names;
+  Eigen::VectorXd middle(arm.dof()), away(arm.dof());
+  for (const seam::Joint& joint : arm.model().joints) {
+    const auto i = static_cast<Eigen::Index>(names.size());
+    const bool endless = joint.type == seam::Joint::Type::continuous;
+    middle(i) = endless ? 0.0 : 0.5 * (joint.lower + joint.upper);
+    away(i) = middle(i) + (endless ? 0.5 : std::min(0.5, 0.1 * (joint.upper - joint.lower)));
+    names.push_back(joint.name);
+  }
+  arm.reset(middle, Eigen::VectorXd::Zero(arm.dof()));
+
+  seam::Sequence task;
+  task.then(seam::learn(movement(names, middle, away, 1.5)))
+      .until(seam::before_end(0.4))
+      .then(seam::learn(movement(names, away, middle, 1.5)));
+  seam::Controller controller(arm, task, seam::Join::dmp2j);
+  seam::Plugin plugin(world.bullet);
+  plugin.add(controller);
+
+  double error = 0.0;
+  while (!controller.finished()) {
+    world.bullet.stepSimulation(btScalar(1e-3), 0);
+    const auto& tick = controller.last_tick();
+    error = std::max(error, (tick.q - tick.reference.position).lpNorm<Eigen::Infinity>());
+  }
+  std::cout << arm.model().name << ": " << arm.dof() << " joints followed to " << error
+            << " rad or m\n";
+  return error < (sizeof(btScalar) == 8 ? 1e-9 : 1e-5) ? 0 : 1;
+} catch (const seam::Error& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Usage: tree.sh PACKAGES PREFIX BUILD...
+# Unpacks the Debian packages, so that PREFIX is what they install; looks at what is in them.
+set -euo pipefail
+packages=$1 prefix=$2
+shift 2
+failed=0
+complain() {
+  echo "$1"
+  failed=1
+}
+
+rm -rf "$prefix"
+mkdir -p "$prefix.new"
+for package in "$packages"/*.deb; do dpkg-deb -x "$package" "$prefix.new"; done
+mv "$prefix.new/usr" "$prefix"
+rm -rf "$prefix.new"
+
+depends=$(dpkg-deb -f "$packages"/libseam0_*.deb Depends)
+for library in libbullet3.24 libbullet-extras3.24 liburdfdom-model3.0 libassimp5 libyaml-cpp0.7 libc6; do
+  [[ $depends == *"$library"* ]] || complain "libseam0 does not depend on $library: $depends"
+done
+[[ $(dpkg-deb -f "$packages"/libseam-dev_*.deb Depends) == *"libseam0 (= "* ]] || complain "libseam-dev takes any libseam0"
+
+libraries=$(dirname "$(find "$prefix" -name libseam-core.so)")
+for folder in "$@"; do
+  named=$(grep -rlF "$folder" "$prefix" || true)
+  [ -z "$named" ] || complain "names $folder: $named"
+done
+readelf -d "$libraries/libseam-core.so" | grep -qi bullet && complain "libseam-core needs Bullet"
+for library in "$libraries"/libseam-*.so; do
+  readelf -d "$library" | grep -q "soname: \[$(basename "$library").0\]" || complain "$library: its soname is not .so.0"
+  shown=$(nm -DC --defined-only "$library" | grep ' T ' | grep -v ' T \(seam::\|_init\|_fini\)' || true)
+  [ -z "$shown" ] || complain "$library: shows more than seam's own: $shown"
+done
+nm -DC --defined-only "$libraries/libseam-files.so" | grep -q 'YamlEntry' &&
+  complain "libseam-files shows what no header declares"
+
+headers=$(grep -rl 'BulletInverseDynamics/\|btMultiBody.h\|urdf_model/\|assimp/\|yaml-cpp/' "$prefix/include" || true)
+[ -z "$headers" ] || complain "headers that need what users have not: $headers"
+hidden=$(grep -rl '^namespace seam' "$prefix/include" || true)
+[ -z "$hidden" ] || complain "declare what the libraries hide, must say namespace SEAM_API seam: $hidden"
+exit $failed
