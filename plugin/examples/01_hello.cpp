@@ -1,8 +1,9 @@
 #include <iostream>
 
-#include <btBulletDynamicsCommon.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+
 #include <seam/bullet.hpp>
 #include <seam/seam.hpp>
 
@@ -14,7 +15,8 @@ int main() {
   btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   world.setGravity(btVector3(0, 0, -9.81));
 
-  seam::Robot arm = seam::Robot::load("assets/pa10/pa10.urdf", world);  // urdfdom + assimp → btMultiBody
+  seam::Robot arm =
+      seam::Robot::load("assets/pa10/pa10.urdf", world);  // urdfdom + assimp → btMultiBody
   auto reach = seam::learn(seam::Demonstration::read("assets/demos/ramp_up.csv"));
   auto back = seam::learn(seam::Demonstration::read("assets/demos/ramp_down.csv"));
 

@@ -1,7 +1,6 @@
-#include "one_precision.hpp"
-
 #include <dlfcn.h>
 
+#include "one_precision.hpp"
 #include <seam/error.hpp>
 #include <seam/precision.hpp>
 

@@ -7,15 +7,16 @@
 // Bullet is built in double or in float, and so is seam: seam::bullet, seam::bullet-float32. One program takes one kind.
 // Mixing them would go wrong at run time, so it is stopped here, or by the linker.
 #if defined(SEAM_BULLET_MIXED)
-#error "this target links seam in one precision and Bullet in the other: take seam::bullet with Bullet's -float64 \
-libraries, or seam::bullet-float32 with its float libraries"
+#error \
+    "this target links seam in one precision and Bullet in the other: take seam::bullet with Bullet's -float64 libraries, or seam::bullet-float32 with its float libraries"
 #elif defined(SEAM_BULLET_FLOAT64) && defined(SEAM_BULLET_FLOAT32)
 #error "both seam::bullet and seam::bullet-float32 are linked: take one"
 #elif defined(SEAM_BULLET_FLOAT64) && !defined(BT_USE_DOUBLE_PRECISION)
-#error "seam::bullet needs BT_USE_DOUBLE_PRECISION and Bullet's -float64 libraries: with Bullet in float, take \
-seam::bullet-float32"
+#error \
+    "seam::bullet needs BT_USE_DOUBLE_PRECISION and Bullet's -float64 libraries: with Bullet in float, take seam::bullet-float32"
 #elif defined(SEAM_BULLET_FLOAT32) && defined(BT_USE_DOUBLE_PRECISION)
-#error "seam::bullet-float32 does not go with BT_USE_DOUBLE_PRECISION: with Bullet in double, take seam::bullet"
+#error \
+    "seam::bullet-float32 does not go with BT_USE_DOUBLE_PRECISION: with Bullet in double, take seam::bullet"
 #endif
 
 namespace SEAM_API seam {
