@@ -215,13 +215,33 @@ TEST(Controller, AnAppsOwnTorquesSurviveWithAndWithoutSubsteps) {
   }
 }
 
-TEST(Controller, TicksWithoutAllocating) {
+TEST(Controller, TicksWithoutAllocatingThroughJoinsAndChangesOfGoal) {
+  for (const Join method : all_joins) {
+    World world;
+    Arm arm(world);
+    Controller controller(arm.robot, elbow_task(), method);
+    const Eigen::VectorXd goal = Eigen::VectorXd::Constant(1, 1.2);
+    const AllocationGuard guard;
+    for (int k = 0; !controller.finished(); ++k) {
+      if (k == 200) controller.sequencer().set_goal(goal);
+      controller.pre_tick(1e-3);
+    }
+    EXPECT_EQ(guard.allocations(), 0) << to_string(method);
+  }
+}
+
+TEST(Controller, ReferenceFollowsAChangeBetweenTicks) {
   World world;
   Arm arm(world);
-  Controller controller(arm.robot, elbow_task(), Join::dmp2a);
-  const AllocationGuard guard;
-  while (!controller.finished()) controller.pre_tick(1e-3);
-  EXPECT_EQ(guard.allocations(), 0);
+  Controller controller(arm.robot, elbow_task(), Join::dmp2);
+  for (int k = 0; k < 200; ++k) controller.pre_tick(1e-3);
+  const double before = controller.sequencer().sample().acceleration(0);
+  controller.sequencer().set_goal(Eigen::VectorXd::Constant(1, 1.2));
+  const double changed = controller.sequencer().sample().acceleration(0);
+  ASSERT_GT(std::abs(changed - before), 1.0);
+  controller.pre_tick(1e-3);
+  EXPECT_EQ(controller.last_tick().sequence.acceleration(0), changed);
+  EXPECT_EQ(controller.last_tick().reference.acceleration(3), changed);
 }
 
 TEST(Controller, RefusesWhatItCannotPlay) {

@@ -197,12 +197,18 @@ TEST(TaskSpace, ReachPutsTheJointsWhereASequenceCanBegin) {
   EXPECT_LT((controller.last_tick().q - q).norm(), 1e-12);
 }
 
-TEST(TaskSpace, TickAllocatesNothing) {
-  App app(there_and_back(six()), Join::dmp2j, {{}, hand()});
-  for (int k = 0; k < 600; ++k) {
+TEST(TaskSpace, TickAllocatesNothingThroughAJoinAndAChangeOfGoal) {
+  for (const Join method : all_joins) {
+    App app(there_and_back(six()), method, {{}, hand()});
+    const Eigen::VectorXd goal = app.controller->sequencer().goal() + 0.02 * six();
     const AllocationGuard guard;
-    app.controller->pre_tick(dt);
-    ASSERT_EQ(guard.allocations(), 0) << k;
+    for (int k = 0; k < 800; ++k) {
+      if (k == 700) app.controller->sequencer().set_goal(goal);
+      app.controller->pre_tick(dt);
+    }
+    EXPECT_EQ(guard.allocations(), 0) << to_string(method);
+    EXPECT_EQ(app.controller->sequencer().joins(), 2) << to_string(method);
+    EXPECT_EQ(app.controller->status(), Controller::Status::following) << to_string(method);
   }
 }
 

@@ -32,9 +32,12 @@ Actuator::Actuator(const RobotModel& model, const ActuatorSettings& settings)
       delivered_(driven_) {
   if (rate_.size() != model.dof() || !(rate_.array() > 0.0).all())
     throw Error("actuator: rate", "must be a number > 0 [N·m/s], or one for each joint");
+  ideal_ = quantum_.isZero(0.0) && !settings.limit_effort && rate_.array().isInf().all() &&
+           lag_.isZero(0.0);
 }
 
 const Eigen::VectorXd& Actuator::deliver(double dt, const Eigen::VectorXd& commanded) noexcept {
+  if (ideal_) return commanded;
   for (Eigen::Index i = 0; i < delivered_.size(); ++i) {
     const double step = quantum_(i);
     const double command = step > 0.0 ? step * std::round(commanded(i) / step) : commanded(i);

@@ -51,12 +51,9 @@ Primitive rest_at(const Eigen::VectorXd& q) {
 }
 
 Controller::Tick tick_at(const Robot& robot, int n) {
-  Eigen::VectorXd q(robot.dof()), qd(robot.dof());
-  robot.state(q, qd);
   Controller::Tick tick;
-  tick.q = q.head(n);
-  tick.qd = qd.head(n);
-  tick.torque.setZero(n);
+  tick.q = tick.qd = tick.torque = Eigen::VectorXd::Zero(n);
+  robot.state(tick.q, tick.qd);
   tick.reference = Sample::at_rest(tick.q);
   return tick;
 }
@@ -68,6 +65,14 @@ const ControlSettings& valid(const ControlSettings& settings) {
   return settings;
 }
 
+bool same_motion(const Sample& a, const Sample& b) {
+  const auto same = [](const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+    return (x - y).squaredNorm() == 0.0;
+  };
+  return same(a.position, b.position) && same(a.velocity, b.velocity) &&
+         same(a.acceleration, b.acceleration);
+}
+
 // Moves nothing: see apply_torque.
 constexpr double mark = 0.1234567890123;  // [N·m]
 
@@ -76,8 +81,6 @@ constexpr double mark = 0.1234567890123;  // [N·m]
 Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
                        const ControllerSettings& settings)
     : robot_(robot),
-      q_(robot.dof()),
-      qd_(robot.dof()),
       tick_(tick_at(robot, known(robot, settings).dof())),
       joints_(reference(known(robot, settings), sequence, settings.tool, tick_.q)),
       sequencer_(sequence, join, joints_->measured(tick_.q, tick_.qd)),
@@ -86,10 +89,12 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
       law_(InverseDynamics(known(robot, settings)), valid(settings.law)),
       sensor_(known(robot, settings), settings.sensor),
       actuator_(known(robot, settings), settings.actuator),
+      next_sequence_(sequencer_.sample()),
       next_(tick_.reference) {
-  tick_.sequence = sequencer_.sample();
-  joints_->find(tick_.sequence, tick_.reference);
-  law_.start(tick_.reference.velocity);
+  joints_->find(next_sequence_, next_);
+  tick_.sequence = next_sequence_;
+  tick_.reference = next_;
+  law_.start(next_.velocity);
   applied_.setZero(tick_.q.size());
 }
 
@@ -101,13 +106,17 @@ void Controller::pre_tick(double dt) noexcept {
   if (!(dt > 0.0)) return;
   tick_.time = sequencer_.time();
   tick_.running = sequencer_.running();
-  read_state();
-  tick_.reference = next_;
-  follow(tick_.reference);
-  tick_.sequence = sequencer_.sample();
+  robot_.state(tick_.q, tick_.qd);
+  tick_.sequence.swap(next_sequence_);
+  tick_.reference.swap(next_);
+  if (!same_motion(sequencer_.sample(), tick_.sequence)) {  // it was changed since the last tick
+    tick_.sequence = sequencer_.sample();
+    follow(tick_.sequence, tick_.reference);
+  }
   tick_.tool_error = joints_->miss(tick_.sequence, tick_.q);
   sequencer_.step(dt);
-  follow(next_);
+  next_sequence_ = sequencer_.sample();
+  follow(next_sequence_, next_);
   if (status_ == Status::stopped) {
     brake_.step(dt);
     next_ = brake_.sample();
@@ -120,15 +129,9 @@ void Controller::pre_tick(double dt) noexcept {
   apply_torque(actuator_.deliver(dt, tick_.torque));
 }
 
-void Controller::read_state() noexcept {
-  robot_.state(q_, qd_);
-  tick_.q = q_.head(tick_.q.size());
-  tick_.qd = qd_.head(tick_.q.size());
-}
-
 // Where there is no reference any more the joints come to rest from the last one that there was.
-void Controller::follow(Sample& joints) noexcept {
-  if (status_ == Status::stopped || joints_->find(sequencer_.sample(), joints)) return;
+void Controller::follow(const Sample& sequence, Sample& joints) noexcept {
+  if (status_ == Status::stopped || joints_->find(sequence, joints)) return;
   status_ = Status::stopped;
   coming_to_rest_ = tick_.reference.position + stopping_time * tick_.reference.velocity;
   brake_.set_goal(coming_to_rest_);
@@ -141,12 +144,9 @@ void Controller::follow(Sample& joints) noexcept {
 void Controller::apply_torque(const Eigen::VectorXd& torque) noexcept {
   btMultiBody& multibody = robot_.multibody();
   const bool still_stands = marked_ && multibody.getBaseTorque().x() == base_torque_;
-  if (still_stands)
-    applied_ = torque - applied_;
-  else
-    applied_ = torque;
-  for (int i = 0; i < applied_.size(); ++i)
-    multibody.addJointTorque(i, static_cast<btScalar>(applied_(i)));
+  if (!still_stands) applied_.setZero();
+  for (int i = 0; i < torque.size(); ++i)
+    multibody.getLink(i).m_jointTorque[0] += static_cast<btScalar>(torque(i) - applied_(i));
   if (!still_stands) multibody.addBaseTorque(btVector3(btScalar(mark), 0, 0));
   applied_ = torque;
   base_torque_ = multibody.getBaseTorque().x();

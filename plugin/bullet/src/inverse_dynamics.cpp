@@ -37,6 +37,7 @@ struct InverseDynamics::Tree {
   int count = 0;  // of the bodies added
   int root;       // 1: body 0 is the base
   id::vecx q, qd, qdd, torque;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 
 InverseDynamics::Tree::Tree(const RobotModel& model)
@@ -85,6 +86,8 @@ int InverseDynamics::dof() const noexcept {
 }
 
 void InverseDynamics::set_gravity(const Eigen::Vector3d& gravity_in_base) noexcept {
+  if (gravity_in_base == tree_->gravity) return;
+  tree_->gravity = gravity_in_base;
   tree_->bodies.setGravityInWorldFrame(bullet_vector(gravity_in_base));
 }
 

@@ -11,6 +11,13 @@
 
 namespace seam {
 
+namespace {
+
+constexpr int base_dof =
+    6;  // that a multibody's velocity vector begins with, also where the base is fixed
+
+}  // namespace
+
 struct Robot::Parts {
   Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world, const RobotSettings& settings);
   ~Parts();
@@ -114,10 +121,12 @@ btMultiBodyDynamicsWorld& Robot::world() const noexcept {
 }
 
 void Robot::state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept {
-  assert(q.size() == dof() && qd.size() == dof());
-  for (int i = 0; i < dof(); ++i) {
-    q[i] = multibody().getJointPos(i);
-    qd[i] = multibody().getJointVel(i);
+  assert(q.size() <= dof() && qd.size() == q.size());
+  const btMultiBody& robot = multibody();
+  const btScalar* velocity = robot.getVelocityVector() + base_dof;
+  for (int i = 0; i < q.size(); ++i) {
+    q[i] = robot.getLink(i).m_jointPos[0];
+    qd[i] = velocity[i];
   }
 }
 
@@ -149,7 +158,8 @@ Eigen::Isometry3d Robot::X_world_frame(const Frame& frame) const noexcept {
 }
 
 Eigen::Vector3d Robot::gravity_in_base() const noexcept {
-  return X_world_base().linear().transpose() * eigen_vector(world().getGravity());
+  const btQuaternion& R = multibody().getWorldToBaseRot();
+  return Eigen::Quaterniond(R.w(), R.x(), R.y(), R.z()) * eigen_vector(world().getGravity());
 }
 
 }  // namespace seam

@@ -35,6 +35,7 @@ class Actuator {
 
  private:
   Eigen::VectorXd quantum_, limit_, rate_, lag_;
+  bool ideal_;                 // delivers what is commanded
   Eigen::VectorXd driven_;     // u₃
   Eigen::VectorXd delivered_;  // t
   bool begun_ = false;

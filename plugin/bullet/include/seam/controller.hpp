@@ -86,12 +86,10 @@ class Controller {
  private:
   friend class Plugin;
 
-  void read_state() noexcept;
-  void follow(Sample& joints) noexcept;
+  void follow(const Sample& sequence, Sample& joints) noexcept;
   void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
   Robot& robot_;
-  Eigen::VectorXd q_, qd_;  // of the robot with its passive joints
   Tick tick_;
   std::unique_ptr<JointReference> joints_;
   Sequencer sequencer_;
@@ -100,7 +98,8 @@ class Controller {
   ComputedTorque law_;
   Sensor sensor_;
   Actuator actuator_;
-  Sample next_;  // n, reference at the end of the tick
+  Sample next_sequence_;  // at the end of the tick
+  Sample next_;           // n, the reference then
   Status status_ = Status::following;
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
   bool marked_ = false;

@@ -50,7 +50,7 @@ class Robot {
   const btMultiBody& multibody() const noexcept;
   btMultiBodyDynamicsWorld& world() const noexcept;
 
-  /// Joint positions [rad or m] and velocities [rad/s or m/s], dof values each.
+  /// Positions [rad or m] and velocities [rad/s or m/s] of as many joints, from the first on, as there is room for.
   void state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
   /// Puts the arm at (q, q̇); colliders and their bounding boxes follow. Forces and torques that
   /// wait for the next step stay.

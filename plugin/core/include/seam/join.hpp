@@ -53,6 +53,12 @@ struct Sample {
         velocity(Eigen::VectorXd::Zero(dimensions)),
         acceleration(Eigen::VectorXd::Zero(dimensions)),
         jerk(Eigen::VectorXd::Zero(dimensions)) {}
+  void swap(Sample& other) noexcept {
+    position.swap(other.position);
+    velocity.swap(other.velocity);
+    acceleration.swap(other.acceleration);
+    jerk.swap(other.jerk);
+  }
   /// At rest.
   static Sample at_rest(const Eigen::VectorXd& position);
 };
