@@ -22,12 +22,12 @@ format: build/tools                    ## check the layout of the C++ sources (F
 	@clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources)
 tidy: build/tools build/release/build.ninja ## check the C++ sources with clang-tidy
 	run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$'
-micro: build/release/build.ninja       ## measure learning, and a step beside a bare loop of the same arithmetic
+micro: build/release/build.ninja       ## measure the hot paths, each beside something bare, and print their ratios
 	cmake --build --preset release --target seam_micro
-	build/release/bench/seam_micro --benchmark_report_aggregates_only
+	build/release/bench/seam_micro --out build/micro.md
 meshes page:                           ## make the arm's meshes, or the report page's template, anew (needs Node.js)
 	cd $(if $(filter page,$@),bench/page,assets/pa10/source) && npm ci && npm run $@
-readme: bench ; bash bench/readme.sh   ## put the figures of bench and experiments into the READMEs
+readme: bench micro ; bash bench/readme.sh ## put the figures of bench, micro and experiments into the READMEs
 clean:                                 ## remove what was built
 	rm -rf build results
 

@@ -1,13 +1,19 @@
 #!/bin/sh
 # Puts the figures that the bench left in results/ into README.md: the table between its two marks, and the pictures;
-# and the answers of the experiments into bench/experiments/README.md.
-# `make readme` runs the bench first.
+# and the answers of the experiments into bench/experiments/README.md,
+# and what `make micro` left in build/ into bench/README.md.
+# `make readme` runs both first.
 set -eu
 cd "$(dirname "$0")/.."
-awk '/<!-- table -->/ {print; print ""; while ((getline line < "results/overview.md") > 0) print line; print ""; skip = 1}
-     /<!-- \/table -->/ {skip = 0}
-     !skip && !/<!-- table -->/' README.md >README.md.part
-mv README.md.part README.md
+put() {  # put MARK TABLE FILE
+  awk -v mark="$1" -v table="$2" '
+    $0 == "<!-- /" mark " -->" {skip = 0}
+    !skip {print}
+    $0 == "<!-- " mark " -->" {print ""; while ((getline line < table) > 0) print line; print ""; skip = 1}' "$3" >"$3.part"
+  mv "$3.part" "$3"
+}
+put table results/overview.md README.md
+put micro build/micro.md bench/README.md
 for scene in line pouring wiping carrying catching; do
   cp results/$scene/$scene.png bench/pictures/$scene.png
 done

@@ -2,14 +2,19 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bench/micro/benchmarks.hpp"
+#include "bench/micro/pair.hpp"
 #include <seam/seam.hpp>
+
+namespace seam::micro {
 
 namespace {
 
 constexpr int samples = 1000;
 constexpr int dimensions = 7;
+constexpr double limit = 0.3e-3;  // [s]
 
-seam::Demonstration demonstration() {
+Demonstration demonstration() {
   Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0);
   Eigen::MatrixXd position(samples, dimensions);
   std::vector<std::string> names;
@@ -17,27 +22,29 @@ seam::Demonstration demonstration() {
     names.push_back("q" + std::to_string(d));
     position.col(d) = (2.0 * M_PI * time.array() + d).sin();
   }
-  return seam::Demonstration::from_positions(names, time, position);
+  return Demonstration::from_positions(names, time, position);
 }
 
-void learn(benchmark::State& state, seam::Kind kind) {
-  const seam::Demonstration demo = demonstration();
-  seam::LearnSettings settings;
+Timed learning(Kind kind) {
+  LearnSettings settings;
   settings.kind = kind;
-  settings.period = kind == seam::Kind::rhythmic ? 1.0 : 0.0;
-  for (auto _ : state) benchmark::DoNotOptimize(seam::learn(demo, settings));
-}
-
-void derivatives(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(demonstration());
+  settings.period = kind == Kind::rhythmic ? 1.0 : 0.0;
+  return timed(
+      [demo = demonstration(), settings] { benchmark::DoNotOptimize(learn(demo, settings)); });
 }
 
 }  // namespace
 
-BENCHMARK_CAPTURE(learn, discrete, seam::Kind::discrete)
-    ->Repetitions(15)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(learn, rhythmic, seam::Kind::rhythmic)
-    ->Repetitions(15)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(derivatives)->Repetitions(15)->Unit(benchmark::kMillisecond);
+void add_learn_benchmarks() {
+  for (const auto& [name, kind] :
+       {std::pair{"discrete", Kind::discrete}, {"rhythmic", Kind::rhythmic}})
+    add_pair(std::string("learning 1000 samples × 7, ") + name + " / 0.3 ms", 1.0, 1000,
+             [kind = kind] {
+               return Pair{learning(kind), [] { return limit; }};
+             });
+  add_pair("their derivatives by smoothing / learning them", no_bar, 100, [] {
+    return Pair{timed([] { benchmark::DoNotOptimize(demonstration()); }), learning(Kind::discrete)};
+  });
+}
+
+}  // namespace seam::micro

@@ -3,10 +3,15 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/micro/benchmarks.hpp"
+#include "bench/micro/pair.hpp"
 #include <seam/seam.hpp>
+
+namespace seam::micro {
 
 namespace {
 
@@ -14,10 +19,10 @@ constexpr int D = 7;
 constexpr int M = 10;
 constexpr double dt = 1e-3;
 
-seam::Primitive primitive() {
-  seam::Primitive primitive;
+Primitive primitive() {
+  Primitive primitive;
   for (int d = 0; d < D; ++d) primitive.coordinates.push_back("q" + std::to_string(d));
-  primitive.kernels = seam::Kernels::even_in_time(M, 0.75, primitive.alpha);
+  primitive.kernels = Kernels::even_in_time(M, 0.75, primitive.alpha);
   primitive.weights = 100.0 * Eigen::MatrixXd::Random(M, D);
   primitive.goal.setOnes(D);
   primitive.start_position.setZero(D);
@@ -28,7 +33,7 @@ seam::Primitive primitive() {
 /// The same mathematics in plain loops over arrays of fixed size.
 class BareLoop {
  public:
-  explicit BareLoop(const seam::Primitive& from)
+  explicit BareLoop(const Primitive& from)
       : propagator_(from.gains, from.tau, dt), tau_(from.tau), gains_(from.gains) {
     for (int j = 0; j < M; ++j) {
       centers_[j] = from.kernels.centers(j);
@@ -86,9 +91,9 @@ class BareLoop {
     for (int d = 0; d < D; ++d) f[d] *= x / sum;
   }
 
-  seam::Propagator propagator_;
+  Propagator propagator_;
   double tau_;
-  seam::Gains gains_;
+  Gains gains_;
   std::array<double, M> centers_{}, precision_{};
   std::array<std::array<double, D>, M> weights_{};
   std::array<double, D> goal_{}, offset_{}, velocity_{}, added_{}, rate_{}, start_{}, middle_{},
@@ -98,50 +103,50 @@ class BareLoop {
 
 constexpr int ticks = 1000;
 
-void play(benchmark::State& state, bool rate_moves) {
-  const seam::Primitive shown = primitive();
-  seam::Sequence sequence;
-  sequence.then(shown).until(seam::after(1e9));
-  const auto start = seam::Sample::at_rest(shown.start_position);
-  seam::Sequencer sequencer(sequence, seam::Join::dmp3, start);
-  for (auto _ : state) {
-    state.PauseTiming();
-    sequencer = seam::Sequencer(sequence, seam::Join::dmp3, start);
-    if (rate_moves) sequencer.set_rate(0.5, 10.0);
-    state.ResumeTiming();
+Timed steps(const std::shared_ptr<Sequencer>& sequencer) {
+  return timed([=] {
     for (int k = 0; k < ticks; ++k) {
-      sequencer.step(dt);
-      benchmark::DoNotOptimize(sequencer.sample().position.data());
+      sequencer->step(dt);
+      benchmark::DoNotOptimize(sequencer->sample().position.data());
       benchmark::ClobberMemory();
     }
-  }
-  state.SetItemsProcessed(state.iterations() * ticks);
+  });
 }
 
-void sequencer_step(benchmark::State& state) {
-  play(state, false);
-}
-
-/// Each step is of another length and needs a propagator of its own.
-void sequencer_step_while_the_rate_moves(benchmark::State& state) {
-  play(state, true);
-}
-
-void bare_loop(benchmark::State& state) {
-  BareLoop loop(primitive());
-  for (auto _ : state) {
-    loop.restart();
+Timed steps(const std::shared_ptr<BareLoop>& loop) {
+  return timed([=] {
     for (int k = 0; k < ticks; ++k) {
-      loop.step();
-      benchmark::DoNotOptimize(loop.position.data());
+      loop->step();
+      benchmark::DoNotOptimize(loop->position.data());
       benchmark::ClobberMemory();
     }
-  }
-  state.SetItemsProcessed(state.iterations() * ticks);
+  });
+}
+
+/// @param rate_moves  each step is of another length and needs a propagator of its own
+Pair play(Join join, bool rate_moves) {
+  const Primitive shown = primitive();
+  Sequence sequence;
+  sequence.then(shown).until(after(1e9));
+  const Sequencer fresh(sequence, join, Sample::at_rest(shown.start_position));
+  const auto sequencer = std::make_shared<Sequencer>(fresh);
+  const auto loop = std::make_shared<BareLoop>(shown);
+  const auto restart = [=] {
+    *sequencer = fresh;
+    if (rate_moves) sequencer->set_rate(0.5, 10.0);
+    loop->restart();
+  };
+  return {steps(sequencer), steps(loop), ticks, restart};
 }
 
 }  // namespace
 
-BENCHMARK(sequencer_step)->Repetitions(15)->Unit(benchmark::kMicrosecond);
-BENCHMARK(sequencer_step_while_the_rate_moves)->Repetitions(15)->Unit(benchmark::kMicrosecond);
-BENCHMARK(bare_loop)->Repetitions(15)->Unit(benchmark::kMicrosecond);
+void add_step_benchmarks() {
+  for (const Join join : all_joins)
+    add_pair("sequencer step, " + std::string(to_string(join)) + " / bare loop", 1.2, 2000,
+             [join] { return play(join, false); });
+  add_pair("sequencer step while the rate moves / bare loop", no_bar, 500,
+           [] { return play(Join::dmp3, true); });
+}
+
+}  // namespace seam::micro

@@ -1,0 +1,91 @@
+// Cost of a world's step with the plug-in beside without, the arms moving alike; and of each of many arms beside one alone.
+
+#include <algorithm>
+#include <memory>
+
+#include "bench/micro/arms.hpp"
+#include "bench/micro/benchmarks.hpp"
+#include "bench/micro/pair.hpp"
+
+namespace seam::micro {
+
+namespace {
+
+constexpr Join join = Join::dmp3;
+
+/// Arms that make the movement again and again, a tick at a time.
+class Play {
+ public:
+  explicit Play(int count) : arms_(count, joint_movement(), join) {}
+
+  void with_plugin(int ticks) {
+    for (int k = 0; k < ticks; ++k) arms_.step();
+  }
+  void without_plugin(int ticks) {
+    for (int k = 0; k < ticks; ++k)
+      arms_.step(commanded_[tick_ + static_cast<std::size_t>(k)].torque);
+  }
+  void control(int ticks) {
+    for (int k = 0; k < ticks; ++k) arms_.tick();
+  }
+  /// After some ticks; from the beginning where the next ones would go beyond the end.
+  void go_on(int ticks) {
+    tick_ += static_cast<std::size_t>(ticks);
+    if (tick_ + static_cast<std::size_t>(ticks) <= commanded_.size()) return;
+    tick_ = 0;
+    arms_.restart();
+  }
+
+ private:
+  Arms arms_;
+  std::vector<Controller::Tick> commanded_ = played(joint_movement(), join);
+  std::size_t tick_ = 0;
+};
+
+using Ticks = void (Play::*)(int);
+
+Timed ticks(const std::shared_ptr<Play>& play, Ticks kind, int count) {
+  return timed([=] { ((*play).*kind)(count); });
+}
+
+Pair with_and_without() {
+  constexpr int together = 20;
+  const auto with = std::make_shared<Play>(1);
+  const auto without = std::make_shared<Play>(1);
+  return {ticks(with, &Play::with_plugin, together),
+          ticks(without, &Play::without_plugin, together), together, [=] {
+            with->go_on(together);
+            without->go_on(together);
+          }};
+}
+
+Pair many_and_one(Ticks kind, int count) {
+  const int together = std::max(1, 32 / count);
+  const auto many = std::make_shared<Play>(count);
+  const auto one = std::make_shared<Play>(1);
+  return {ticks(many, kind, together), ticks(one, kind, together * count),
+          static_cast<double>(together * count), [=] {
+            many->go_on(together);
+            one->go_on(together * count);
+          }};
+}
+
+}  // namespace
+
+void add_world_benchmarks() {
+  add_pair("world step with the plug-in / without, same torques", no_bar, 3000, with_and_without);
+  struct Kind {
+    std::string name;
+    Ticks ticks;
+    double bar;
+  };
+  for (const Kind& kind : {Kind{"control", &Play::control, 1.2},
+                           {"Bullet's step", &Play::without_plugin, no_bar},
+                           {"both", &Play::with_plugin, 1.2}})
+    for (const int count : {2, 4, 16, 64, 256})
+      add_pair(kind.name + " per arm, " + std::to_string(count) + " arms in a world / one",
+               kind.bar, std::max(200, 2000 / count),
+               [ticks = kind.ticks, count] { return many_and_one(ticks, count); });
+}
+
+}  // namespace seam::micro
