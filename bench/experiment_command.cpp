@@ -6,11 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "bench/experiment.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/names.hpp"
+#include "bench/progress.hpp"
 #include <seam/error.hpp>
 
 namespace seam {
@@ -52,12 +52,7 @@ void answer_all(const Options& options) {
   }
   require_gnuplot();
   for (const Experiment& experiment : experiments) {
-    const auto progress = [&](int done, int total) {
-      if (!isatty(STDERR_FILENO)) return;
-      fmt::print(stderr, "\r\033[K{} {}/{}{}", experiment.name, done, total,
-                 done == total ? "\r\033[K" : "");
-      std::fflush(stderr);
-    };
+    const auto progress = [&](int done, int total) { show_progress(done, total, experiment.name); };
     const std::vector<Measured> measured = perform(experiment, options.jobs, progress);
     write_experiment(experiment, measured, options.out);
     fmt::print("{}\n\n{}\n\n{}\n{}/{}.png\n\n", experiment.title, answer(experiment, measured),
