@@ -3,7 +3,7 @@ packages := g++ cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-de
   libtinyxml2-dev libassimp-dev zlib1g-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libegl1 libgl1-mesa-dri libopengl0 libegl-dev \
   libepoxy-dev libfreetype-dev libpng-dev fonts-dejavu-core ffmpeg libgtest-dev libgmock-dev libbenchmark-dev liborocos-kdl-dev $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
 tools := clang-format clang-tidy
-browser := chromium
+testing := chromium dpkg-dev file
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
 .PHONY: help bench test debug asan tsan format tidy micro meshes page readme clean
 .PRECIOUS: build/%/build.ninja
@@ -12,10 +12,10 @@ help:                                  ## this list
 bench: build/release/build.ninja       ## build, run every scene with every method, print the comparison, fill results/
 	cmake --build --preset release --target seam
 	build/release/bench/seam bench --out results
-test: build/browser build/release/build.ninja ## build and run every test
+test: build/testing build/release/build.ninja ## build and run every test
 	cmake --build --preset release
 	ctest --preset release
-debug asan tsan: %: build/browser build/%/build.ninja ## build and run every test with assertions; address and UB, or thread, sanitizer
+debug asan tsan: %: build/testing build/%/build.ninja ## build and run every test with assertions; address and UB, or thread, sanitizer
 	cmake --build --preset $@
 	ctest --preset $@
 format: build/tools                    ## check the layout of the C++ sources (FIX=1: put it right)
@@ -31,7 +31,7 @@ readme: bench micro ; bash bench/readme.sh ## put the figures of bench, micro an
 clean:                                 ## remove what was built
 	rm -rf build results
 
-build/packages build/tools build/browser: Makefile
+build/packages build/tools build/testing: Makefile
 	@sh .ci/install-packages.sh $@.log $($(@F)) && mkdir -p build && touch $@
 build/setup: build/packages
 	@sh plugin/cmake/bullet-headers.sh build/bullet-headers && touch $@
