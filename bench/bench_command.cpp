@@ -1,12 +1,10 @@
 #include "bench/bench_command.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,6 +15,7 @@
 #include "bench/gate.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/names.hpp"
+#include "bench/options.hpp"
 #include "bench/page.hpp"
 #include "bench/progress.hpp"
 #include "bench/report.hpp"
@@ -33,7 +32,7 @@ struct Options {
   std::vector<double> speeds;
   std::vector<std::string> overrides;
   bool list = false;
-  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int jobs = all_cores();
   std::string out = "results";
   std::string baselines;  // folder; empty: none
   bool update = false;
@@ -132,14 +131,8 @@ void add_common(CLI::App& command, Options& options) {
       ->allow_extra_args(false)
       ->delimiter(',')
       ->check(CLI::Number & CLI::Range(1e-3, 1e3));
-  command
-      .add_option("--set", options.overrides,
-                  "key=value: an entry of the scene file set anew, e.g. actuator.lag=0.002 or "
-                  "sequence.steps.0.until={after: 0.6}; may be repeated")
-      ->allow_extra_args(false);
-  command.add_option("--jobs", options.jobs, "threads; the results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_set_option(command, options.overrides);
+  add_jobs_option(command, options.jobs);
   command.add_option("--out", options.out, "folder for the results")->capture_default_str();
 }
 

@@ -92,6 +92,12 @@ std::vector<Column> columns(const Recording& recording) {
   return list;
 }
 
+std::map<std::string, double> figures(const Run& run) {
+  std::map<std::string, double> figures;
+  for (const Column& column : columns(run.recording)) figures[column.name] = column.of(run);
+  return figures;
+}
+
 std::vector<JoinColumn> join_columns(const Recording& recording) {
   using J = JoinMetrics;
   std::vector<JoinColumn> list{

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct JoinColumn {
 };
 
 std::vector<JoinColumn> join_columns(const Recording& recording);
+
+/// The figures of a run by the names of its columns.
+std::map<std::string, double> figures(const Run& run);
 
 /// One thing that came of a run, for people: `spilled`, `0.425 %`.
 struct ShownOutcome {

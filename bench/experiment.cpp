@@ -52,8 +52,7 @@ double speed_at_last_join(const Recording& recording) {
 }
 
 std::map<std::string, double> figures_of(const Run& run) {
-  std::map<std::string, double> figures;
-  for (const Column& column : columns(run.recording)) figures[column.name] = column.of(run);
+  std::map<std::string, double> figures = seam::figures(run);
   figures[joint_speed] = speed_at_last_join(run.recording);
   return figures;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "bench/experiment.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/names.hpp"
+#include "bench/options.hpp"
 #include "bench/progress.hpp"
 #include <seam/error.hpp>
 
@@ -22,7 +22,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> overrides;
   std::vector<double> values;
-  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int jobs = all_cores();
   std::string out = "results/experiments";
   bool list = false;
 };
@@ -70,16 +70,11 @@ void add_experiment_command(CLI::App& app) {
                      "experiment files, or names of seam's own (default: all of those)");
   command.add_flag("--list", options->list, "name the experiments, a line each, and do none");
   command.add_option("--scene", options->scene, "your own scene instead of the experiment's");
-  command
-      .add_option("--set", options->overrides,
-                  "key=value: an entry of the scene file set anew; may be repeated")
-      ->allow_extra_args(false);
+  add_set_option(command, options->overrides);
   command.add_option("--values", options->values, "values of what is varied, e.g. 0.5,1,1.5")
       ->allow_extra_args(false)
       ->delimiter(',');
-  command.add_option("--jobs", options->jobs, "threads; the results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs_option(command, options->jobs);
   command.add_option("--out", options->out, "folder for the results")->capture_default_str();
   command.footer(
       "Example: seam experiment speed --scene my.yaml   # which join, for my robot, at my speed?");

@@ -61,9 +61,7 @@ Figures figures(const std::vector<Comparison>& comparisons) {
   Figures figures;
   for (const Comparison& comparison : comparisons)
     for (const Run& run : comparison.runs)
-      for (const Column& column : columns(run.recording))
-        figures[comparison.scene.name][std::string(to_string(run.method))][column.name] =
-            column.of(run);
+      figures[comparison.scene.name][std::string(to_string(run.method))] = seam::figures(run);
   return figures;
 }
 

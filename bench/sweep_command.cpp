@@ -1,16 +1,15 @@
 #include "bench/sweep_command.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "bench/names.hpp"
+#include "bench/options.hpp"
 #include "bench/sweep.hpp"
 #include <seam/error.hpp>
 
@@ -24,7 +23,7 @@ struct Options {
   std::optional<std::int64_t> samples;
   std::uint64_t seed = 1;
   std::string shard = "0/1";
-  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int jobs = all_cores();
   std::string out;
 };
 
@@ -113,10 +112,7 @@ void add_what(CLI::App& command, Options& options) {
                   "how many values are drawn; more can be asked for later")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
   command.add_option("--seed", options.seed, "of what is drawn")->capture_default_str();
-  command
-      .add_option("--set", options.overrides,
-                  "key=value: an entry of the scene file set anew in all; may be repeated")
-      ->allow_extra_args(false);
+  add_set_option(command, options.overrides);
   command
       .add_option("--method", options.methods,
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
@@ -131,9 +127,7 @@ void add_sweep_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand(
       "sweep", "play many variants of a scene; taken up again where it was stopped");
   add_what(command, *options);
-  command.add_option("--jobs", options->jobs, "threads; the results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs_option(command, options->jobs);
   command
       .add_option("--shard", options->shard,
                   "i/n: play the i-th (from 0) of n parts, into a file of its own")

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace seam {
+
+/// Options that several commands have.
+int all_cores();  // the default of `--jobs`
+void add_jobs_option(CLI::App& command, int& jobs);
+void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+
+}  // namespace seam
