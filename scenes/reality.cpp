@@ -37,6 +37,19 @@ class Reader {
   const RobotModel& robot_;
 };
 
+Dropout read_dropout(const YamlEntry& entry) {
+  entry.only({"from", "to", "state"});
+  Dropout dropout;
+  dropout.from = entry.at("from").not_negative();
+  const YamlEntry to = entry.at("to");
+  dropout.to = to.number();
+  if (!(dropout.to > dropout.from)) to.fail(to.text() + ", must be after its beginning");
+  if (const auto state = entry.find("state"))
+    dropout.what =
+        state->choice({"missing", "frozen"}) == 0 ? Dropout::What::missing : Dropout::What::frozen;
+  return dropout;
+}
+
 }  // namespace
 
 ActuatorSettings read_actuator(const YamlEntry& entry, const RobotModel& robot) {
@@ -65,14 +78,28 @@ FrictionSettings read_friction(const YamlEntry& entry, const RobotModel& robot) 
 }
 
 SensorSettings read_sensor(const YamlEntry& entry, const RobotModel& robot) {
-  entry.only({"delay", "resolution", "position_noise", "velocity_noise"});
+  entry.only({"delay", "resolution", "position_noise", "velocity_noise", "dropouts"});
   SensorSettings sensor;
   if (const auto delay = entry.find("delay")) sensor.delay = delay->not_negative();
   const Reader reader(entry, robot);
   reader.not_negative("resolution", sensor.resolution);
   reader.not_negative("position_noise", sensor.position_noise);
   reader.not_negative("velocity_noise", sensor.velocity_noise);
+  if (const auto dropouts = entry.find("dropouts"))
+    for (const YamlEntry& dropout : dropouts->items())
+      sensor.dropouts.push_back(read_dropout(dropout));
   return sensor;
+}
+
+GuardSettings read_guard(const YamlEntry& entry, const RobotModel& robot) {
+  entry.only({"most_error", "longest_dropout", "frozen_beyond", "beyond_limits"});
+  GuardSettings guard;
+  Reader(entry, robot).positive("most_error", guard.most_error);
+  for (const auto& [key, bound] : {std::pair{"longest_dropout", &guard.longest_dropout},
+                                   {"frozen_beyond", &guard.frozen_beyond},
+                                   {"beyond_limits", &guard.beyond_limits}})
+    if (const auto given = entry.find(key)) *bound = given->not_negative();
+  return guard;
 }
 
 void read_model_error(const YamlEntry& entry, Scene& scene) {

@@ -50,6 +50,7 @@ struct Scene {
   ActuatorSettings actuator;
   std::optional<FrictionSettings> friction;  // unknown to the controller
   SensorSettings sensor;
+  GuardSettings guard;
   std::optional<Join> method;  // with which `seam run` plays it unless told otherwise
   double dt = 1e-3;            // [s] Bullet's tick
   double duration = 0.0;       // [s] of a run

@@ -298,7 +298,7 @@ TEST(Robot, LeavesTheWorldEmptyWhenItIsDestroyed) {
     second = seam::Robot::load(pa10, *world);
     world->stepSimulation(btScalar(1e-3), 0);
     EXPECT_EQ(world->getNumMultibodies(), 2);
-    EXPECT_EQ(world->getNumCollisionObjects(), 8);
+    EXPECT_EQ(world->getNumCollisionObjects(), 8 + 2);  // colliders, and a mark of each robot's
   }
   EXPECT_EQ(world->getNumMultibodies(), 0);
   EXPECT_EQ(world->getNumCollisionObjects(), 0);

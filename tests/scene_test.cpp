@@ -134,8 +134,6 @@ INSTANTIATE_TEST_SUITE_P(
                 ":15: key \"until\": must have one of after, before_end, at_phase"},
         BadFile{"ZeroTick", "dt: 0.001", "dt: 0", ":18: key \"dt\": 0, must be > 0"},
         BadFile{"LongTick", "dt: 0.001", "dt: 10", ":18: key \"dt\": 10, must be in 1e-6 to 0.1 s"},
-        BadFile{"UnstableTick", "dt: 0.001", "dt: 0.09",
-                ":18: key \"dt\": 0.09, is too long for the control gains"},
         BadFile{"EndlessSettling", "settle: 1.0", "settle: 1e12",
                 ":19: key \"settle\": 1e12, must be <= 3600 s"},
         BadFile{"EndlessRun", "settle: 1.0", "duration: 3601",

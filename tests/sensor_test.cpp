@@ -90,6 +90,37 @@ TEST(Sensor, AddsWhiteNoiseOfItsStandardDeviation) {
   EXPECT_NEAR(next, 0.0, 4e-6 / std::sqrt(ticks));
 }
 
+// Ticks of 10 ms: none from the third to the fourth, the state of the sixth from then on to the eighth.
+TEST(Sensor, LosesTheStateInDropouts) {
+  SensorSettings settings;
+  settings.dropouts = {{0.02, 0.04, Dropout::What::missing}, {0.06, 0.08, Dropout::What::frozen}};
+  Sensor sensor(two_joints(), settings);
+  EXPECT_FALSE(sensor.ideal());
+  const Eigen::VectorXd speed = qd;
+  for (int k = 0; k < 12; ++k) {
+    const Eigen::VectorXd q = q_at(0.01 * k);
+    const AllocationGuard guard;
+    sensor.measure(0.01, q, speed);
+    EXPECT_EQ(guard.allocations(), 0);
+    if (k == 2 || k == 3)
+      EXPECT_TRUE(sensor.q().array().isNaN().all() && sensor.qd().array().isNaN().all()) << k;
+    else
+      EXPECT_EQ(sensor.q(), q_at(0.01 * (k == 6 || k == 7 ? 5 : k))) << k;
+  }
+}
+
+TEST(Sensor, ForgetsWhatWasBefore) {
+  SensorSettings settings;
+  settings.delay = 0.005;
+  Sensor sensor(two_joints(), settings);
+  for (int k = 0; k < 20; ++k) sensor.measure(1e-3, q_at(1e-3 * k), qd);
+  sensor.forget();
+  for (int k = 0; k < 4; ++k) {
+    sensor.measure(1e-3, q_at(5.0), qd);
+    EXPECT_EQ(sensor.q(), q_at(5.0));
+  }
+}
+
 TEST(Sensor, RefusesWhatCannotBe) {
   const auto refused = [](const std::function<void(SensorSettings&)>& spoil) {
     SensorSettings settings;
@@ -97,6 +128,11 @@ TEST(Sensor, RefusesWhatCannotBe) {
     return test::refusal([&] { Sensor(two_joints(), settings); });
   };
   EXPECT_EQ(refused([](auto& s) { s.delay = -0.1; }), "sensor: delay: -0.100000 s, must be >= 0");
+  EXPECT_EQ(
+      refused([](auto& s) {
+        s.dropouts = {{0.5, 0.5, Dropout::What::frozen}};
+      }),
+      "sensor: dropout: from 0.500000 s to 0.500000 s, must end after it began, at 0 or later");
   EXPECT_EQ(refused([](auto& s) { s.position_noise = -1.0; }),
             "sensor: position noise: -1.000000, must be >= 0");
   EXPECT_EQ(refused([](auto& s) { s.velocity_noise = INFINITY; }),

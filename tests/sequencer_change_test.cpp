@@ -358,7 +358,7 @@ TEST(AnyState, TakesTheChangesThatItCanFollow) {
     EXPECT_EQ(sequencer.set_goal(goal), has_begun);
     EXPECT_EQ(sequencer.set_tau(0.5), has_begun);
     EXPECT_EQ(sequencer.set_amplitude(1.2), state == In::turning);
-    EXPECT_EQ(sequencer.reinitialise(Sample(sequencer.state())), has_begun);
+    EXPECT_TRUE(sequencer.reinitialise(Sample(sequencer.state())));
     EXPECT_FALSE(sequencer.set_goal(Eigen::Vector3d::Zero()));
     EXPECT_FALSE(sequencer.set_goal(Eigen::Vector2d(0.0, NAN)));
     EXPECT_FALSE(sequencer.set_tau(0.0));

@@ -65,10 +65,15 @@ const ControlSettings& valid(const ControlSettings& settings) {
   return settings;
 }
 
+bool same(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& y) {
+  return (x - y).squaredNorm() == 0.0;
+}
+
+bool finite(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  return std::isfinite(q.sum() + qd.sum());
+}
+
 bool same_motion(const Sample& a, const Sample& b) {
-  const auto same = [](const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
-    return (x - y).squaredNorm() == 0.0;
-  };
   return same(a.position, b.position) && same(a.velocity, b.velocity) &&
          same(a.acceleration, b.acceleration);
 }
@@ -88,13 +93,19 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
       coming_to_rest_(tick_.q),
       law_(InverseDynamics(known(robot, settings)), valid(settings.law)),
       sensor_(known(robot, settings), settings.sensor),
+      guard_(known(robot, settings), settings.guard),
       actuator_(known(robot, settings), settings.actuator),
-      next_sequence_(sequencer_.sample()),
-      next_(tick_.reference) {
-  joints_->find(next_sequence_, next_);
+      offset_(static_cast<int>(tick_.q.size())),
+      taken_up_(sequencer_.sample()),
+      next_sequence_(taken_up_),
+      next_(tick_.reference),
+      here_(tick_.reference),
+      goal_(sequencer_.goal()),
+      at_goal_(tick_.q) {
+  here_.velocity = tick_.qd;
+  begin_here();
   tick_.sequence = next_sequence_;
   tick_.reference = next_;
-  law_.start(next_.velocity);
   applied_.setZero(tick_.q.size());
 }
 
@@ -102,40 +113,155 @@ Controller::~Controller() {
   if (plugin_) plugin_->remove(*this);
 }
 
+// From what the sequence has the joints do now, and what they do: the difference fades.
+void Controller::begin_here() noexcept {
+  next_sequence_ = sequencer_.sample();
+  joints_->find(next_sequence_, next_);
+  law_.start(here_.velocity);
+  guard_.restart(here_.position);
+  here_.position -= next_.position;
+  here_.velocity -= next_.velocity;
+  offset_.start(here_.position, here_.velocity);
+  offset_.add_to(next_);
+}
+
+bool Controller::reinitialise() noexcept {
+  robot_.state(here_.position, here_.velocity);
+  if (goal_beyond_limits().cause != Incident::Cause::none ||
+      !finite(here_.position, here_.velocity) ||
+      !joints_->take_up(here_.position, here_.velocity, taken_up_) ||
+      !sequencer_.reinitialise(taken_up_))
+    return false;
+  begin_here();
+  sensor_.forget();
+  status_ = Status::following;
+  incident_ = {};
+  return true;
+}
+
 void Controller::pre_tick(double dt) noexcept {
   if (!(dt > 0.0)) return;
+  begin_tick();
+  const bool there = measure(dt);
+  watch(there);
+  plan(dt);
+  command(dt, there);
+}
+
+void Controller::begin_tick() noexcept {
   tick_.time = sequencer_.time();
   tick_.running = sequencer_.running();
   robot_.state(tick_.q, tick_.qd);
   tick_.sequence.swap(next_sequence_);
   tick_.reference.swap(next_);
+  look_at_goal();
   if (!same_motion(sequencer_.sample(), tick_.sequence)) {  // it was changed since the last tick
     tick_.sequence = sequencer_.sample();
     follow(tick_.sequence, tick_.reference);
   }
   tick_.tool_error = joints_->miss(tick_.sequence, tick_.q);
+}
+
+bool Controller::measure(double dt) noexcept {
+  if (!sensor_.ideal()) sensor_.measure(dt, tick_.q, tick_.qd);
+  return guard_.trusts(dt, q(), qd(), tick_.reference.position);
+}
+
+void Controller::watch(bool there) noexcept {
+  if (!there) {
+    bridge();
+  } else {
+    if (status_ == Status::bridging) status_ = Status::following;
+    const Incident off = guard_.deviation(q(), tick_.reference.position);
+    if (off.cause != Incident::Cause::none) stop_here(off);
+  }
+}
+
+// Before what it makes of the motion is taken over.
+void Controller::look_at_goal() noexcept {
+  if (status_ == Status::stopped || same(goal_, sequencer_.goal())) return;
+  goal_ = sequencer_.goal();
+  const Incident beyond = goal_beyond_limits();
+  if (beyond.cause != Incident::Cause::none) stop(beyond);
+}
+
+Incident Controller::goal_beyond_limits() noexcept {
+  if (!joints_->at_goal(sequencer_.goal(), at_goal_)) return {};
+  Incident beyond = guard_.beyond_limits(at_goal_);
+  if (beyond.cause != Incident::Cause::none) beyond.cause = Incident::Cause::goal;
+  return beyond;
+}
+
+void Controller::bridge() noexcept {
+  if (status_ == Status::stopped) return;
+  const Incident dropout = guard_.dropout();
+  if (guard_.lost()) return stop(dropout);
+  const double since = status_ == Status::bridging ? incident_.time : tick_.time;
+  status_ = Status::bridging;
+  incident_ = dropout;
+  incident_.time = since;
+}
+
+void Controller::plan(double dt) noexcept {
   sequencer_.step(dt);
+  offset_.advance(dt);
   next_sequence_ = sequencer_.sample();
   follow(next_sequence_, next_);
-  if (status_ == Status::stopped) {
-    brake_.step(dt);
-    next_ = brake_.sample();
-  }
+  if (status_ != Status::stopped) return;
+  brake_.step(dt);
+  next_ = brake_.sample();
+}
+
+void Controller::command(double dt, bool there) noexcept {
   law_.set_gravity(robot_.gravity_in_base());
-  if (!sensor_.ideal()) sensor_.measure(dt, tick_.q, tick_.qd);
-  law_.torque(dt, sensor_.ideal() ? tick_.q : sensor_.q(),
-              sensor_.ideal() ? tick_.qd : sensor_.qd(), tick_.reference, next_.position,
-              tick_.torque);
+  if (there)
+    law_.torque(dt, q(), qd(), tick_.reference, next_.position, tick_.torque);
+  else
+    law_.torque(dt, tick_.reference, next_.position, tick_.torque);
+  if (!std::isfinite(tick_.torque.sum())) tick_.torque.setZero();
   apply_torque(actuator_.deliver(dt, tick_.torque));
 }
 
-// Where there is no reference any more the joints come to rest from the last one that there was.
+// The joints' reference for a sample of the sequence, or the end of following it.
 void Controller::follow(const Sample& sequence, Sample& joints) noexcept {
-  if (status_ == Status::stopped || joints_->find(sequence, joints)) return;
+  if (status_ == Status::stopped) return;
+  if (!joints_->find(sequence, joints)) {
+    Incident unreachable;
+    unreachable.cause = Incident::Cause::unreachable;
+    return stop(unreachable);
+  }
+  offset_.add_to(joints);
+  const Incident beyond = guard_.beyond_limits(joints.position);
+  if (beyond.cause != Incident::Cause::none) stop(beyond);
+}
+
+// Where there is no reference any more the joints come to rest from the last one that there was.
+void Controller::stop(const Incident& incident) noexcept {
   status_ = Status::stopped;
-  coming_to_rest_ = tick_.reference.position + stopping_time * tick_.reference.velocity;
+  incident_ = incident;
+  incident_.time = tick_.time;
+  brake_from(tick_.reference);
+}
+
+// From where the joints are; once stopped, wherever they are taken is where they rest.
+void Controller::stop_here(const Incident& incident) noexcept {
+  tick_.reference.position = q();
+  tick_.reference.acceleration.setZero();
+  if (status_ == Status::stopped) {
+    tick_.reference.velocity.setZero();
+    brake_from(tick_.reference);
+  } else {
+    tick_.reference.velocity = qd();
+    stop(incident);
+  }
+  law_.start(tick_.reference.velocity);
+}
+
+void Controller::brake_from(const Sample& from) noexcept {
+  coming_to_rest_ = from.position + stopping_time * from.velocity;
+  guard_.keep_within_limits(from.position, coming_to_rest_);
   brake_.set_goal(coming_to_rest_);
-  brake_.reinitialise(tick_.reference, 1.0, Join::dmp3);
+  brake_.reinitialise(from, 1.0, Join::dmp3);
 }
 
 // Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base

@@ -26,13 +26,33 @@ PostureSettings resting_at(PostureSettings posture, const Eigen::VectorXd& q) {
 JointSpace::JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates)
     : robot_(robot), coordinates_(coordinates) {
   for (const std::string& coordinate : coordinates) joints_.push_back(robot.joint(coordinate));
+  held_.setZero(robot.dof());
 }
 
 Sample JointSpace::measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
   Sample part(static_cast<int>(joints_.size()));
-  part.position = q(joints_);
-  part.velocity = qd(joints_);
+  take_up(q, qd, part);
   return part;
+}
+
+bool JointSpace::take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept {
+  held_ = q;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const auto d = static_cast<Eigen::Index>(c);
+    at.position(d) = q(joints_[c]);
+    at.velocity(d) = qd(joints_[c]);
+  }
+  at.acceleration.setZero();
+  at.jerk.setZero();
+  return true;
+}
+
+bool JointSpace::at_goal(const Eigen::Ref<const Eigen::VectorXd>& goal,
+                         Eigen::VectorXd& joints) noexcept {
+  joints = held_;
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    joints(joints_[c]) = goal(static_cast<Eigen::Index>(c));
+  return true;
 }
 
 void JointSpace::require_reachable(const Primitive& primitive) {
@@ -48,6 +68,9 @@ void JointSpace::require_reachable(const Primitive& primitive) {
 }
 
 bool JointSpace::find(const Sample& sample, Sample& joints) noexcept {
+  joints.position = held_;
+  joints.velocity.setZero();
+  joints.acceleration.setZero();
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const auto d = static_cast<Eigen::Index>(c);
     joints.position(joints_[c]) = sample.position(d);
@@ -89,25 +112,32 @@ Eigen::Isometry3d TaskSpace::pose(
 }
 
 Sample TaskSpace::measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  Sample at(dimensions_);
+  if (!take_up(q, qd, at) || (solution_.position - q).cwiseAbs().maxCoeff() > same_posture)
+    throw Error("controller", "the joints are not where the posture puts them for their tool");
+  return at;
+}
+
+bool TaskSpace::take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept {
   const Eigen::Isometry3d X = tool_at(q);
   solver_.start(q);
-  target_ = {X, tool_.jacobian() * qd, Vector6d::Zero()};
-  if (solver_.follow(target_, solution_) != InverseKinematics::Status::exact ||
-      (solution_.position - q).cwiseAbs().maxCoeff() > same_posture)
-    throw Error("controller", "the joints are not where the posture puts them for their tool");
-  Sample at(dimensions_);
+  target_.pose = X;
+  target_.velocity.noalias() = tool_.jacobian() * qd;
+  target_.acceleration.setZero();
+  if (!follow_target()) return false;
   at.position.head<3>() = X.translation();
   at.velocity.head<3>() = target_.velocity.head<3>();
-  if (!turns()) return at;
+  at.acceleration.setZero();
+  at.jerk.setZero();
+  if (!turns()) return true;
   RotationState turn;
   const OrientationState is{Eigen::Quaterniond(X.linear()), target_.velocity.tail<3>(),
                             Eigen::Vector3d::Zero()};
-  if (!to_rotation(is, reference_, turn))
-    throw Error("controller", "the tool is turned by more than pi from the sequence's reference");
+  if (!to_rotation(is, reference_, turn)) return false;
   at.position.tail<3>() = turn.vector;
   at.velocity.tail<3>() = turn.velocity;
   at.acceleration.tail<3>() = turn.acceleration;
-  return at;
+  return true;
 }
 
 void TaskSpace::require_reachable(const Primitive& primitive) {
@@ -131,13 +161,15 @@ bool TaskSpace::to_tool(const Sample& sample) noexcept {
   return true;
 }
 
-bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
+bool TaskSpace::follow_target() noexcept {
   using Status = InverseKinematics::Status;
-  if (!to_tool(sample)) return false;
   const Status status = solver_.follow(target_, solution_);
-  if (!(status == Status::exact || status == Status::damped) ||
-      !(solution_.velocity.cwiseAbs().maxCoeff() <= most_speed_))
-    return false;
+  return (status == Status::exact || status == Status::damped) &&
+         solution_.velocity.cwiseAbs().maxCoeff() <= most_speed_;
+}
+
+bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
+  if (!to_tool(sample) || !follow_target()) return false;
   joints.position = solution_.position;
   joints.velocity = solution_.velocity;
   joints.acceleration = solution_.acceleration;

@@ -2,18 +2,21 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include "world_watch.hpp"
 #include <seam/controller.hpp>
 #include <seam/plugin.hpp>
 
 namespace seam {
 
-Plugin::Plugin(btMultiBodyDynamicsWorld& world) : world_(world) {
+Plugin::Plugin(btMultiBodyDynamicsWorld& world)
+    : world_(world), watch_(std::make_unique<WorldWatch>(world)) {
   world_.setInternalTickCallback(&Plugin::pre_tick, this, true);
 }
 
 Plugin::~Plugin() {
   for (Controller* controller : controllers_) controller->plugin_ = nullptr;
-  if (world_.getWorldUserInfo() == this) world_.setInternalTickCallback(nullptr, nullptr, true);
+  if (watch_->world_is_there() && world_.getWorldUserInfo() == this)
+    world_.setInternalTickCallback(nullptr, nullptr, true);
 }
 
 void Plugin::add(Controller& controller) {

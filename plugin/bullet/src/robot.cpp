@@ -1,4 +1,5 @@
 #include <cassert>
+#include <optional>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -7,6 +8,7 @@
 #include "multibody.hpp"
 #include "one_precision.hpp"
 #include "shapes.hpp"
+#include "world_watch.hpp"
 #include <seam/robot.hpp>
 
 namespace seam {
@@ -37,6 +39,7 @@ struct Robot::Parts {
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   btAlignedObjectArray<btQuaternion> rotations;  // workspaces of place_colliders
   btAlignedObjectArray<btVector3> origins;
+  std::optional<WorldWatch> watch;
 };
 
 Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
@@ -57,6 +60,7 @@ Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
 }
 
 Robot::Parts::~Parts() {
+  if (!watch->world_is_there()) return;
   world.removeMultiBody(multibody.get());
   for (const auto& collider : colliders) world.removeCollisionObject(collider.get());
 }
@@ -86,6 +90,7 @@ void Robot::Parts::add_to_world() {
         collider.get(), is_base ? Filter::StaticFilter : Filter::DefaultFilter,
         is_base ? Filter::AllFilter ^ Filter::StaticFilter : Filter::AllFilter);
   }
+  watch.emplace(world);
 }
 
 void Robot::Parts::place_colliders() {

@@ -228,9 +228,12 @@ bool Sequencer::set_amplitude(double amplitude) noexcept {
 }
 
 bool Sequencer::reinitialise(const Sample& at) noexcept {
-  if (running_ < 0 || !usable(at, dimensions())) return false;
+  if (!usable(at, dimensions())) return false;
   scale_ = TimeScale();
-  now().reinitialise(at, now().phase(), join_);
+  if (running_ < 0)
+    start_.position = at.position;
+  else
+    now().reinitialise(at, now().phase(), join_);
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <Eigen/Core>
@@ -9,6 +10,8 @@
 #include <seam/actuator.hpp>
 #include <seam/computed_torque.hpp>
 #include <seam/export.hpp>
+#include <seam/fading_offset.hpp>
+#include <seam/guard.hpp>
 #include <seam/joint_reference.hpp>
 #include <seam/robot.hpp>
 #include <seam/sensor.hpp>
@@ -27,6 +30,7 @@ struct ControllerSettings {
   std::optional<RobotModel> model;
   ActuatorSettings actuator;
   SensorSettings sensor;
+  GuardSettings guard;
 
   ControllerSettings() = default;
   ControllerSettings(const ControlSettings& control, std::optional<ToolSettings> of = std::nullopt,
@@ -43,12 +47,17 @@ struct ControllerSettings {
 /// leaves torques alone that the app adds. To tell substeps apart it adds a torque of 0.12 N·m to the
 /// fixed base, which moves nothing; an app that adds base torques from inside the tick would be in
 /// its way. One controller at a time for a robot, which is borrowed and must outlive it.
+///
+/// Where the arm cannot follow, the joints come to rest within about half a second, and stay there: from the reference, as
+/// smoothly as at a join, or, where a joint was too far from it (a hit, drives that are too weak), from where they are. While
+/// there is no state, the torque is that of the reference alone. A controller that has stopped holds the joints where they
+/// came to rest, gives way again where they are pushed too far, and waits for `reinitialise`; the sequence's time goes on.
 class Controller {
  public:
   enum class Status {
     following,
-    stopped,  ///< the sequence led where the joints cannot follow (out of reach, a joint's limit, a singularity): they
-              ///< come to rest smoothly from where they were, and stay
+    bridging,  ///< there is no state, for a while; it follows again once there is one
+    stopped,   ///< see incident()
   };
 
   /// The work of one tick: the state and reference at its beginning, and the torque commanded for
@@ -65,7 +74,7 @@ class Controller {
 
   /// @throws Error  a coordinate is not a joint of the robot, a goal is outside a joint's limits or out of reach, an
   ///                empty sequence, gains that are negative or not finite, a model whose joints are not the robot's first
-  ///                ones, and whatever TaskSpace refuses
+  ///                ones, and whatever TaskSpace, Actuator, Sensor and Guard refuse
   Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
              const ControllerSettings& settings = {});
   Controller(const Controller&) = delete;
@@ -75,9 +84,22 @@ class Controller {
   /// @param dt  [s] Bullet's tick; nothing is done unless it is > 0
   void pre_tick(double dt) noexcept;
 
+  /// Takes the sequence up again from where the arm is now: after it was reset, teleported or moved by something else,
+  /// or once what stopped it is over. What runs now is joined to the joints' state, at rest in acceleration; joints that are
+  /// not named hold where they are now; what the coordinates do not reach (the posture of a redundant arm) fades to what
+  /// the sequence asks for within a second. What the feedback had to hold is let go of. From far away a larger tau, set
+  /// before, makes the way back gentle. Does not allocate.
+  /// @return  false, and nothing is changed, where the goal is beyond a joint's limits, the state is not finite, or the
+  ///          tool's is not one that can be followed
+  bool reinitialise() noexcept;
+
   /// The last switch has been due; the arm goes on to the last goal and stays there.
   bool finished() const noexcept { return sequencer_.finished(); }
   Status status() const noexcept { return status_; }
+  /// What made it bridge or stop last; none since it was made or re-initialised.
+  const Incident& incident() const noexcept { return incident_; }
+  /// In one line.
+  std::string what_happened() const { return describe(incident_, robot_.model()); }
   /// The sequence as it runs: for changing its goal, tau, amplitude and queue between ticks.
   Sequencer& sequencer() noexcept { return sequencer_; }
   const Sequencer& sequencer() const noexcept { return sequencer_; }
@@ -86,7 +108,21 @@ class Controller {
  private:
   friend class Plugin;
 
+  const Eigen::VectorXd& q() const noexcept { return sensor_.ideal() ? tick_.q : sensor_.q(); }
+  const Eigen::VectorXd& qd() const noexcept { return sensor_.ideal() ? tick_.qd : sensor_.qd(); }
+  void begin_here() noexcept;
+  void begin_tick() noexcept;
+  bool measure(double dt) noexcept;
+  void watch(bool there) noexcept;
+  void look_at_goal() noexcept;
+  Incident goal_beyond_limits() noexcept;
+  void bridge() noexcept;
+  void plan(double dt) noexcept;
+  void command(double dt, bool there) noexcept;
   void follow(const Sample& sequence, Sample& joints) noexcept;
+  void stop(const Incident& incident) noexcept;
+  void stop_here(const Incident& incident) noexcept;
+  void brake_from(const Sample& from) noexcept;
   void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
   Robot& robot_;
@@ -97,10 +133,17 @@ class Controller {
   Eigen::VectorXd coming_to_rest_;  // n
   ComputedTorque law_;
   Sensor sensor_;
+  Guard guard_;
   Actuator actuator_;
-  Sample next_sequence_;  // at the end of the tick
-  Sample next_;           // n, the reference then
+  FadingOffset offset_;      // of the reference from what the sequence asks for
+  Sample taken_up_;          // of the sequence, that it was re-initialised with
+  Sample next_sequence_;     // at the end of the tick
+  Sample next_;              // n, the reference then
+  Sample here_;              // n, the joints' state
+  Eigen::VectorXd goal_;     // of the sequence, the last that was looked at
+  Eigen::VectorXd at_goal_;  // n
   Status status_ = Status::following;
+  Incident incident_;
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
   bool marked_ = false;
   Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody

@@ -27,6 +27,14 @@ class JointReference {
 
   /// The state of the sequence's coordinates while the joints are at (q, q̇), without acceleration.
   virtual Sample measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) = 0;
+  /// The same, on the way: from wherever the joints are. Neither allocates nor throws.
+  /// @return  false where the coordinates have no such state
+  virtual bool take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                       Sample& at) noexcept = 0;
+  /// Joint positions at a goal of the sequence. Neither allocates nor throws.
+  /// @return  false where only moving there tells
+  virtual bool at_goal(const Eigen::Ref<const Eigen::VectorXd>& goal,
+                       Eigen::VectorXd& joints) noexcept = 0;
   /// @throws Error  a goal of the sequence that the robot cannot reach
   virtual void require_reachable(const Primitive& primitive) = 0;
   /// The joints' state for a sample of the sequence. Neither allocates nor throws.
@@ -43,6 +51,9 @@ class JointSpace final : public JointReference {
   JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates);
 
   Sample measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) override;
+  bool take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept override;
+  bool at_goal(const Eigen::Ref<const Eigen::VectorXd>& goal,
+               Eigen::VectorXd& joints) noexcept override;
   void require_reachable(const Primitive& primitive) override;
   bool find(const Sample& sample, Sample& joints) noexcept override;
   ToolError miss(const Sample&, const Eigen::VectorXd&) noexcept override { return {}; }
@@ -51,6 +62,7 @@ class JointSpace final : public JointReference {
   RobotModel robot_;
   std::vector<std::string> coordinates_;
   std::vector<Eigen::Index> joints_;  // of each coordinate
+  Eigen::VectorXd held_;              // n, where the joints were that are not named
 };
 
 /// The tool that a task-space sequence moves, and the joints' posture while it does.
@@ -84,6 +96,10 @@ class TaskSpace final : public JointReference {
 
   /// @throws Error  the joints are not where the posture puts them (see `reach`)
   Sample measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) override;
+  bool take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept override;
+  bool at_goal(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::VectorXd&) noexcept override {
+    return false;
+  }
   void require_reachable(const Primitive& primitive) override;
   bool find(const Sample& sample, Sample& joints) noexcept override;
   ToolError miss(const Sample& sample, const Eigen::VectorXd& q) noexcept override;
@@ -93,6 +109,7 @@ class TaskSpace final : public JointReference {
  private:
   bool turns() const noexcept { return dimensions_ == 6; }
   bool to_tool(const Sample& sample) noexcept;
+  bool follow_target() noexcept;
 
   int dimensions_;
   double most_speed_;

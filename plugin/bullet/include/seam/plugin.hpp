@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <seam/export.hpp>
@@ -11,14 +12,15 @@ class btMultiBodyDynamicsWorld;
 namespace SEAM_API seam {
 
 class Controller;
+class WorldWatch;
 
 /// Calls `pre_tick` of any number of controllers before each of a world's ticks, substeps included.
 ///
 /// A Bullet world has one pre-tick slot and one user pointer, and the plugin takes both
 /// (`setInternalTickCallback(…, isPreTick = true)`). An app that needs them calls
 /// `Controller::pre_tick` from its own callback and leaves the plugin out. Whoever takes the slot last
-/// has it; a plugin that has lost it leaves it alone. The world is borrowed and must outlive the
-/// plugin; a controller may go before or after it.
+/// has it; a plugin that has lost it leaves it alone. The world is borrowed; it, controllers and the plugin may go in any
+/// order, though not from inside a tick.
 class Plugin {
  public:
   explicit Plugin(btMultiBodyDynamicsWorld& world);
@@ -34,6 +36,7 @@ class Plugin {
   static void pre_tick(btDynamicsWorld* world, btScalar dt);
 
   btMultiBodyDynamicsWorld& world_;
+  std::unique_ptr<WorldWatch> watch_;
   std::vector<Controller*> controllers_;
 };
 

@@ -58,7 +58,8 @@ class Sequencer {
   /// with v = τẏ an arm that moves would go on moving. While the rate moves every step is of another
   /// length and needs a propagator of its own: 1.0 µs instead of 0.12 µs for 7 coordinates × 10 kernels (`make micro`).
   bool set_rate(double rate, double over) noexcept;
-  /// Continues what runs now from a state, e.g. a measured one, at its present phase and at rate 1. False where it will not do.
+  /// Continues what runs now from a state, e.g. a measured one, at its present phase and at rate 1; what still waits for its
+  /// beginning waits there, at rest. False where the state will not do.
   bool reinitialise(const Sample& at) noexcept;
 
   /// Adds a sequence's primitives behind the last one. Its start delay is ignored.

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "settings_check.hpp"
+#include <seam/error.hpp>
+#include <seam/guard.hpp>
+
+namespace seam {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void require_bound(const char* what, double value) {
+  if (!(value >= 0.0)) throw Error(what, std::to_string(value) + ", must be >= 0");
+}
+
+double slack(const Joint& joint, double share) {
+  const double range = joint.upper - joint.lower;
+  return std::isinf(share) || std::isinf(range) ? infinity : share * range;
+}
+
+bool same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return std::equal(a.data(), a.data() + a.size(), b.data());
+}
+
+const char* unit(const Joint& joint) {
+  return joint.type == Joint::Type::prismatic ? " m" : " rad";
+}
+
+}  // namespace
+
+std::string describe(const Incident& incident, const RobotModel& robot) {
+  using Cause = Incident::Cause;
+  std::ostringstream line;
+  line.imbue(std::locale::classic());
+  if (incident.cause == Cause::none) return "nothing has happened";
+  line << "at " << incident.time << " s ";
+  if (incident.cause == Cause::no_state) {
+    line << "there had been no state of the joints for " << incident.value << " s";
+  } else if (incident.cause == Cause::unreachable) {
+    line << "the sequence led where the tool cannot be";
+  } else {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(incident.joint)];
+    const char* what = incident.cause == Cause::deviation ? " was off its reference by "
+                       : incident.cause == Cause::goal    ? " was given the goal "
+                                                          : " was led to ";
+    line << "joint \"" << joint.name << "\"" << what << incident.value << unit(joint);
+  }
+  if (incident.cause != Cause::unreachable) line << ", the bound is " << incident.bound;
+  return line.str();
+}
+
+Guard::Guard(const RobotModel& model, const GuardSettings& settings)
+    : settings_(settings),
+      most_error_(settings.most_error.each(model.dof())),
+      lower_(model.dof()),
+      upper_(model.dof()),
+      slack_(model.dof()),
+      seen_q_(Eigen::VectorXd::Zero(model.dof())),
+      seen_qd_(seen_q_),
+      reference_(seen_q_) {
+  require_bound("guard: longest_dropout", settings.longest_dropout);
+  require_bound("guard: frozen_beyond", settings.frozen_beyond);
+  require_bound("guard: beyond_limits", settings.beyond_limits);
+  require_one_each("guard: most_error", most_error_, model.dof());
+  for (const double bound : most_error_) require_bound("guard: most_error", bound);
+  for (Eigen::Index i = 0; i < lower_.size(); ++i) {
+    const Joint& joint = model.joints[static_cast<std::size_t>(i)];
+    lower_(i) = joint.lower;
+    upper_(i) = joint.upper;
+    slack_(i) = slack(joint, settings.beyond_limits);
+  }
+  least_ = lower_ - slack_;
+  most_ = upper_ + slack_;
+}
+
+bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                   const Eigen::VectorXd& reference) noexcept {
+  const bool finite = std::isfinite(q.sum() + qd.sum());
+  const bool stands = begun_ && same(q, seen_q_) && same(qd, seen_qd_);
+  if (finite && !stands) {
+    seen_q_ = q;
+    seen_qd_ = qd;
+    reference_ = reference;
+    begun_ = true;
+  }
+  frozen_ = stands && (frozen_ || (reference - reference_).lpNorm<Eigen::Infinity>() >
+                                      settings_.frozen_beyond);
+  const bool trusted = finite && !frozen_;
+  dropout_ = trusted ? 0.0 : dropout_ + dt;
+  return trusted;
+}
+
+void Guard::restart(const Eigen::VectorXd& q) noexcept {
+  begun_ = frozen_ = false;
+  dropout_ = 0.0;
+  least_ = (lower_ - slack_).cwiseMin(q);
+  most_ = (upper_ + slack_).cwiseMax(q);
+}
+
+Incident Guard::dropout() const noexcept {
+  return {Incident::Cause::no_state, 0.0, -1, dropout_, settings_.longest_dropout};
+}
+
+Incident Guard::deviation(const Eigen::VectorXd& q,
+                          const Eigen::VectorXd& reference) const noexcept {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const double error = std::abs(q(i) - reference(i));
+    if (error > most_error_(i))
+      return {Incident::Cause::deviation, 0.0, static_cast<int>(i), error, most_error_(i)};
+  }
+  return {};
+}
+
+Incident Guard::beyond_limits(const Eigen::VectorXd& position) const noexcept {
+  for (Eigen::Index i = 0; i < position.size(); ++i) {
+    const double value = position(i);
+    if (!(value < least_(i) || value > most_(i))) continue;
+    const double bound = value < lower_(i) ? lower_(i) : upper_(i);
+    return {Incident::Cause::joint_limit, 0.0, static_cast<int>(i), value, bound};
+  }
+  return {};
+}
+
+void Guard::keep_within_limits(const Eigen::VectorXd& from, Eigen::VectorXd& to) const noexcept {
+  to = to.cwiseMax(lower_.cwiseMin(from)).cwiseMin(upper_.cwiseMax(from));
+}
+
+}  // namespace seam
