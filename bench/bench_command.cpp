@@ -77,6 +77,9 @@ std::string own_method(const std::string& scene) {
 void print(const Comparison& comparison) {
   fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title,
              comparison.scene.dt * 1e3, table(comparison));
+  for (const Run& run : comparison.runs)
+    if (!run.recording.incident.empty())
+      fmt::print("{}: {}\n", to_string(run.method), run.recording.incident);
   fmt::print("played at");
   for (const Run& run : comparison.runs)
     fmt::print(" {} {:.0f}x{}", to_string(run.method), run.real_time_factor,

@@ -18,7 +18,9 @@ nlohmann::ordered_json to_json(const Run& run) {
   }
   nlohmann::ordered_json metrics;
   for (const Column& column : columns(run.recording)) metrics[column.name] = column.of(run);
-  return {{"joins", joins}, {"metrics", metrics}};
+  nlohmann::ordered_json json{{"joins", joins}, {"metrics", metrics}};
+  if (!run.recording.incident.empty()) json["incident"] = run.recording.incident;
+  return json;
 }
 
 nlohmann::ordered_json versions_json(const std::string& seam_version) {

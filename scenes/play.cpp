@@ -104,6 +104,8 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
   for (const auto& object : objects) object->finish(recording);
   const bool stopped = controller.status() == Controller::Status::stopped;
   recording.outcomes.push_back({"stopped_share", stopped ? 1.0 : 0.0});
+  if (controller.incident().cause != Incident::Cause::none)
+    recording.incident = controller.what_happened();
   add_joins(scene, controller.sequencer(), recording.joins);
   if (film) film->finish(recording);
   return recording;

@@ -30,6 +30,7 @@ Sequence swing() {
 struct Seen {
   double deviation = 0.0;     // [rad] of a joint from its reference
   double speed = 0.0;         // [rad/s] of a joint
+  double torque_step = 0.0;   // [N·m] over a tick
   double kink = 0.0;          // [rad/s²] step of a joint's reference acceleration over a tick
   double elbow_most = -10.0;  // [rad]
 };
@@ -37,6 +38,7 @@ struct Seen {
 Seen watch(App& app, double seconds) {
   Seen seen;
   Eigen::VectorXd before = app.controller.last_tick().reference.acceleration;
+  Eigen::VectorXd torque = app.controller.last_tick().torque;
   for (int k = 0; k < std::lround(seconds * 1000.0); ++k) {
     const Controller::Tick& tick = app.step();
     EXPECT_TRUE(tick.torque.allFinite());
@@ -45,7 +47,9 @@ Seen watch(App& app, double seconds) {
     seen.elbow_most = std::max(seen.elbow_most, tick.q(elbow));
     const Eigen::VectorXd& now = tick.reference.acceleration;
     seen.kink = std::max(seen.kink, (now - before).cwiseAbs().maxCoeff());
+    seen.torque_step = std::max(seen.torque_step, (tick.torque - torque).cwiseAbs().maxCoeff());
     before = now;
+    torque = tick.torque;
   }
   return seen;
 }
@@ -95,6 +99,7 @@ TEST(Dropout, OfAFrozenStateIsSeenAndBridged) {
   const Seen seen = watch(app, 0.37);
   EXPECT_EQ(app.controller.status(), Status::bridging);
   EXPECT_LT(seen.deviation, 0.01) << "until it is seen";
+  EXPECT_LT(watch(app, 0.05).torque_step, 0.2) << "as the state comes back";
   EXPECT_LT(watch(app, 2.0).deviation, 0.02);
   EXPECT_EQ(app.controller.status(), Status::following);
   EXPECT_LT(tracking_error(app.controller), 1e-6);
@@ -121,6 +126,7 @@ TEST(Dropout, ThatLastsStopsTheArmSmoothlyUntilItIsToldToGoOn) {
     EXPECT_LT(stopping.kink, 1.0) << "[rad/s²] in 1 ms";
     const Seen standing = watch(app, 1.0);
     EXPECT_LT(standing.deviation, 0.03);
+    EXPECT_LT(standing.torque_step, 0.5) << "as the state comes back";
     EXPECT_LT(app.controller.last_tick().qd.cwiseAbs().maxCoeff(), 1e-3);
     expect_recovery(app);
   }

@@ -38,6 +38,31 @@ TEST(FadingOffset, VelocityAndAccelerationAreTheDerivatives) {
   }
 }
 
+// Position, velocity and acceleration go on where another offset comes on top, but for what that adds.
+TEST(FadingOffset, IsShiftedOnTheWayWithoutAStepInAcceleration) {
+  const Eigen::Vector2d more(0.1, 0.2), faster(-0.3, 0.4);
+  FadingOffset fading(2);
+  fading.start(offset, velocity);
+  fading.advance(0.4);
+  Sample before(2), after(2);
+  fading.add_to(before);
+  fading.shift(more, faster);
+  fading.add_to(after);
+  EXPECT_LT((after.position - before.position - more).norm(), 1e-14);
+  EXPECT_LT((after.velocity - before.velocity - faster).norm(), 1e-14);
+  EXPECT_LT((after.acceleration - before.acceleration).norm(), 1e-12);
+  constexpr double h = 1e-5;
+  Sample sooner(2), now(2), later(2);
+  for (Sample* sample : {&sooner, &now, &later}) {
+    fading.advance(sample == &sooner ? 0.3 : h);
+    fading.add_to(*sample);
+  }
+  EXPECT_LT(((later.position - sooner.position) / (2.0 * h) - now.velocity).norm(), 1e-8);
+  EXPECT_LT(((later.velocity - sooner.velocity) / (2.0 * h) - now.acceleration).norm(), 1e-7);
+  fading.advance(1.0);
+  EXPECT_TRUE(fading.faded());
+}
+
 TEST(FadingOffset, OfNothingIsFadedAtOnce) {
   FadingOffset fading(2);
   EXPECT_TRUE(fading.faded());
@@ -54,6 +79,7 @@ TEST(FadingOffset, AllocatesNothing) {
   const AllocationGuard guard;
   fading.start(d, v);
   fading.advance(0.1);
+  fading.shift(d, v);
   fading.add_to(reference);
   EXPECT_EQ(guard.allocations(), 0);
 }

@@ -188,6 +188,27 @@ TEST(Reality, NoiseFollowsTheSeed) {
   EXPECT_FALSE(same_bits(played({noise}).torque, played({noise, "seed=3"}).torque));
 }
 
+TEST(Reality, ADropoutIsBridgedOrStopsTheArmAndIsTold) {
+  const Recording bridged = played({"sensors.dropouts=[{from: 0.6, to: 0.65}]"});
+  EXPECT_LT(measure(bridged).tracking_max_rad, 1e-9);
+  EXPECT_THAT(bridged.incident,
+              HasSubstr("at 0.6 s there had been no state of the joints for 0.05"));
+  const Recording stopped = played({"sensors.dropouts=[{from: 0.6, to: 2, state: frozen}]"});
+  EXPECT_THAT(stopped.incident, HasSubstr("no state of the joints for 0.1 s, the bound is 0.1"));
+  EXPECT_EQ(stopped.outcomes.front().name, "stopped_share");
+  EXPECT_EQ(stopped.outcomes.front().value, 1.0);
+  const Recording patient =
+      played({"sensors.dropouts=[{from: 0.6, to: 0.8}]", "guard.longest_dropout=0.3"});
+  EXPECT_EQ(patient.outcomes.front().value, 0.0);
+  EXPECT_EQ(played({}).incident, "");
+}
+
+TEST(Reality, AGuardIsSetPerJoint) {
+  const Recording stopped = played({"guard.most_error={E1: 0.001}", "friction.viscous={E1: 20}"});
+  EXPECT_THAT(stopped.incident, HasSubstr("joint \"E1\" was off its reference by 0.001"));
+  EXPECT_EQ(played({"guard.most_error={S1: 0.001}", "friction.viscous={E1: 20}"}).incident, "");
+}
+
 struct Bad {
   const char* name;
   const char* text;
@@ -208,6 +229,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"UnknownOfActuator", "actuator.gain=1", "key \"gain\": not known here"},
         Bad{"UnknownJoint", "friction.coulomb={E9: 1}", "key \"E9\": robot \"pa10\": no joint"},
         Bad{"NegativeFriction", "friction.viscous={E1: -1}", "key \"E1\": -1, must be >= 0"},
+        Bad{"DropoutBackwards", "sensors.dropouts=[{from: 1, to: 0.5}]",
+            "key \"to\": 0.5, must be after its beginning"},
+        Bad{"UnknownState", "sensors.dropouts=[{from: 1, to: 2, state: odd}]", "key \"state\""},
+        Bad{"NoError", "guard.most_error=0", "key \"most_error\": 0, must be > 0"},
+        Bad{"UnknownOfGuard", "guard.patience=1", "key \"patience\": not known here"},
         Bad{"DelayOfNoTime", "sensors.delay=nan", "key \"delay\": \"nan\", must be a finite"},
         Bad{"NegativeNoise", "sensors.position_noise=-1", "\"position_noise\": -1, must be >= 0"},
         Bad{"NoMassAtAll", "model_error.mass=-1", "key \"mass\": -1, must be > -1"},

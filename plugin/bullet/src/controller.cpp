@@ -168,13 +168,11 @@ bool Controller::measure(double dt) noexcept {
 }
 
 void Controller::watch(bool there) noexcept {
-  if (!there) {
-    bridge();
-  } else {
-    if (status_ == Status::bridging) status_ = Status::following;
-    const Incident off = guard_.deviation(q(), tick_.reference.position);
-    if (off.cause != Incident::Cause::none) stop_here(off);
-  }
+  if (!there) return bridge();
+  if (blind_) regain();
+  blind_ = false;
+  const Incident off = guard_.deviation(q(), tick_.reference.position);
+  if (off.cause != Incident::Cause::none) stop_here(off);
 }
 
 // Before what it makes of the motion is taken over.
@@ -193,6 +191,7 @@ Incident Controller::goal_beyond_limits() noexcept {
 }
 
 void Controller::bridge() noexcept {
+  blind_ = true;
   if (status_ == Status::stopped) return;
   const Incident dropout = guard_.dropout();
   if (guard_.lost()) return stop(dropout);
@@ -200,6 +199,21 @@ void Controller::bridge() noexcept {
   status_ = Status::bridging;
   incident_ = dropout;
   incident_.time = since;
+}
+
+// From where the joints turn out to be, without a step in torque.
+void Controller::regain() noexcept {
+  here_.position = q() - tick_.reference.position;
+  here_.velocity = qd() - law_.velocity();
+  tick_.reference.position = q();
+  tick_.reference.velocity += here_.velocity;
+  law_.go_on(qd());
+  if (status_ == Status::stopped) {
+    brake_from(tick_.reference);
+  } else {
+    offset_.shift(here_.position, here_.velocity);
+    status_ = Status::following;
+  }
 }
 
 void Controller::plan(double dt) noexcept {
@@ -254,7 +268,7 @@ void Controller::stop_here(const Incident& incident) noexcept {
     tick_.reference.velocity = qd();
     stop(incident);
   }
-  law_.start(tick_.reference.velocity);
+  law_.go_on(tick_.reference.velocity);
 }
 
 void Controller::brake_from(const Sample& from) noexcept {

@@ -46,6 +46,10 @@ class ComputedTorque {
 
   /// The velocity [rad/s] with which the reference begins, n values.
   void start(const Eigen::VectorXd& velocity) noexcept;
+  /// The velocity that the joints should have now, n values: q̇*ₖ, or where it began.
+  const Eigen::VectorXd& velocity() const noexcept { return matched_velocity_; }
+  /// Goes on from another one, as if the joints should have had that.
+  void go_on(const Eigen::VectorXd& velocity) noexcept { matched_velocity_ = velocity; }
   /// Gravity [m/s²] in the frame of the robot's root link.
   void set_gravity(const Eigen::Vector3d& gravity) noexcept { dynamics_.set_gravity(gravity); }
   /// Torque [N·m] for the tick from now to now + dt.

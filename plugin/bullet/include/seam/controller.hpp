@@ -50,7 +50,8 @@ struct ControllerSettings {
 ///
 /// Where the arm cannot follow, the joints come to rest within about half a second, and stay there: from the reference, as
 /// smoothly as at a join, or, where a joint was too far from it (a hit, drives that are too weak), from where they are. While
-/// there is no state, the torque is that of the reference alone. A controller that has stopped holds the joints where they
+/// there is no state, the torque is that of the reference alone; once there is one again, what the joints are off by fades within a
+/// second. A controller that has stopped holds the joints where they
 /// came to rest, gives way again where they are pushed too far, and waits for `reinitialise`; the sequence's time goes on.
 class Controller {
  public:
@@ -117,6 +118,7 @@ class Controller {
   void look_at_goal() noexcept;
   Incident goal_beyond_limits() noexcept;
   void bridge() noexcept;
+  void regain() noexcept;
   void plan(double dt) noexcept;
   void command(double dt, bool there) noexcept;
   void follow(const Sample& sequence, Sample& joints) noexcept;
@@ -143,6 +145,7 @@ class Controller {
   Eigen::VectorXd goal_;     // of the sequence, the last that was looked at
   Eigen::VectorXd at_goal_;  // n
   Status status_ = Status::following;
+  bool blind_ = false;  // there was no state in the last tick
   Incident incident_;
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
   bool marked_ = false;

@@ -51,6 +51,7 @@ struct Recording {
 
   std::vector<Signal> signals;
   std::vector<Outcome> outcomes;
+  std::string incident;  // what kept the arm from following its sequence, in one line; empty: nothing
   std::string source = "recording";  // where it is from (a file's path), for messages
 
   Recording() = default;
