@@ -1,6 +1,7 @@
 #include "bench/micro/arms.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -26,6 +27,14 @@ Primitive reach(const std::vector<std::string>& coordinates, const Eigen::Vector
   const Eigen::MatrixXd position =
       share * by.transpose() + Eigen::VectorXd::Ones(time.size()) * from.transpose();
   return learn(Demonstration::from_positions(coordinates, time, position));
+}
+
+// A tick is timed many times at one state, which is no dropout here.
+GuardSettings unconcerned() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  GuardSettings guard;
+  guard.most_error = guard.longest_dropout = guard.frozen_beyond = infinity;
+  return guard;
 }
 
 Sequence there_and_back(const Primitive& there, const Primitive& back) {
@@ -76,13 +85,14 @@ Arms::Arms(int count, const Movement& movement, Join join) : movement_(movement)
 }
 
 void Arms::restart() {
+  ControllerSettings settings({}, movement_.tool);
+  settings.guard = unconcerned();
   plugin_ = std::make_unique<Plugin>(*world_);
   for (const auto& arm : arms_) {
     arm->controller.reset();
     arm->robot.multibody().clearForcesAndTorques();
     arm->robot.reset(movement_.start, Eigen::VectorXd::Zero(movement_.start.size()));
-    arm->controller = std::make_unique<Controller>(arm->robot, movement_.sequence, join_,
-                                                   ControllerSettings({}, movement_.tool));
+    arm->controller = std::make_unique<Controller>(arm->robot, movement_.sequence, join_, settings);
     plugin_->add(*arm->controller);
   }
 }
