@@ -40,7 +40,7 @@ struct SensorSettings {
 /// after construction.
 class Sensor {
  public:
-  static constexpr int most_ticks = 1000;
+  static constexpr int most_ticks = 1000;  // that are remembered
 
   /// @throws Error  a setting is negative or not finite, there are not as many as joints, or a dropout does not end after it
   ///                began
@@ -52,8 +52,8 @@ class Sensor {
   void measure(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) noexcept;
   /// The state before now is none of this one's past any more: the arm was put elsewhere.
   void forget() noexcept { count_ = 0; }
-  const Eigen::VectorXd& q() const noexcept { return q_; }
-  const Eigen::VectorXd& qd() const noexcept { return qd_; }
+  const Eigen::VectorXd& q() const noexcept { return q_; }    // n, as measured last
+  const Eigen::VectorXd& qd() const noexcept { return qd_; }  // likewise
 
  private:
   struct Seen {
