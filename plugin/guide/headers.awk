@@ -6,6 +6,9 @@ NR == 1 && $0 == "#pragma once" {print "/** @file */"; next}
   formula = 1
 }
 !/^ *\/\/\/     / {formula = 0}
-/^ *\/\/\/ / && !formula && !/`/ {gsub(/</, "\\\\<")}
+/^ *\/\/\/ / && !formula {
+  if (!/`/) gsub(/</, "\\<")
+  gsub(/Eqs?[.] /, "&\\ "); gsub(/[.] \\ /, ".\\ ")  # not the end of a sentence
+}
 /[;,{}] +\/\/ / && !/NOLINT|namespace/ {sub(/\/\/ /, "///< ")}
 {print}

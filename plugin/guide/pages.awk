@@ -1,10 +1,10 @@
-# Doxygen reads the Markdown pages through this: links to headers lead to their pages, links to what has no page here
-# (folders, the Makefile) become plain text, and @ is no command.
+# Doxygen reads the Markdown pages through this: links to headers lead to their pages, pictures are found by their names,
+# links to what has no page here (folders, the Makefile) become plain text, and @ is no command.
 function linked(text, target) {
-  if (target ~ /^https?:|[.]md$|[.](png|webp)$/) return "[" text "](" target ")"
-  if (target !~ /[.]hpp$/) return text
+  if (target ~ /^https?:|[.]md$/) return "[" text "](" target ")"
+  if (target !~ /[.](hpp|png|webp)$/) return text
   sub(/.*\//, "", target)
-  return "[" text "](@ref " target ")"
+  return "[" text "](" (target ~ /hpp$/ ? "@ref " : "") target ")"
 }
 /^```/ {code = !code}
 !code {
