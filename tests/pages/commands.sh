@@ -24,13 +24,13 @@ ctest() { known_preset ctest "$@"; }
 cpack() { known_preset cpack "$@"; }
 for program in awk g++ pkg-config sudo; do eval "$program() { :; }"; done
 command_not_found_handle() { complain "$1: not known here, see tests/pages/commands.sh"; }
-PATH=
+PATH=$folder
 
 for page; do
   commands=$(<"$page")
   page=${page##*/}
   cd "$folder" || exit 1
-  eval "${commands//build\/release\/bench\/seam/seam}"
+  eval "${commands//build\/release\/bench\/seam/seam}" 2>>"$complaints"
 done >/dev/null
 PATH=/usr/bin:/bin
 cat "$complaints"
