@@ -7,7 +7,7 @@ NR == 1 && $0 == "#pragma once" {print "/** @file */"; next}
 }
 !/^ *\/\/\/     / {formula = 0}
 /^ *\/\/\/ / && !formula {
-  if (!/`/) gsub(/</, "\\<")
+  if (!/`/) gsub(/</, "\\&lt;")
   gsub(/Eqs?[.] /, "&\\ "); gsub(/[.] \\ /, ".\\ ")  # not the end of a sentence
 }
 /[;,{}] +\/\/ / && !/NOLINT|namespace/ {sub(/\/\/ /, "///< ")}

@@ -35,7 +35,7 @@ struct Outcome {
 /// What a run on a robot with n joints left behind: one row per tick, the state before the tick and
 /// the torque commanded for it. SI units.
 struct Recording {
-  std::vector<std::string> joints;  // n
+  std::vector<std::string> joints;  // n names
   Eigen::VectorXd effort;           // [N·m] n, limits of the joints
   Eigen::VectorXd time;             // [s] N
   Eigen::VectorXi running;          // N, index of the running primitive, -1 before the first
@@ -80,7 +80,7 @@ struct Recording {
   /// there. The joins' acceleration jumps and the joints' effort limits are not in the file: NaN.
   /// @throws Error  names the file, the line or the column, and what would be right
   static Recording read(const std::string& path);
-  /// Writes the table as CSV: time, switch, ref.<j>, ref_vel.<j>, ref_acc.<j>, q.<j>, qd.<j>,
+  /// Writes the table as CSV. Columns: time, switch, ref.<j>, ref_vel.<j>, ref_acc.<j>, q.<j>, qd.<j>,
   /// torque.<j>; in task space also ref.<c>, ref_vel.<c>, ref_acc.<c>, tool_error_m, tool_error_rad; the signals.
   /// @throws Error  cannot be written
   void write(const std::string& path) const;
