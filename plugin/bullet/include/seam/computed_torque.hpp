@@ -29,6 +29,7 @@ struct TickGains {
   double Kd = 0.0;  // [1/s]
 
   TickGains() = default;
+  /// Of a tick of dt [s].
   TickGains(const ControlSettings& settings, double dt) noexcept;
 };
 

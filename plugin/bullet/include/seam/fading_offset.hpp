@@ -15,10 +15,12 @@ class FadingOffset {
  public:
   static constexpr double duration = 1.0;  // [s] T
 
+  /// Of n joints, faded.
   explicit FadingOffset(int joints) : start_(joints), now_(joints) {}
 
   /// Begins now with an offset [rad or m] and its velocity, at no acceleration.
   void start(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity) noexcept;
+  /// Of n joints, faded.
   /// Begins anew from the present offset, its acceleration included, and this one together.
   void shift(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity) noexcept;
   void advance(double dt) noexcept;  // [s]

@@ -57,7 +57,8 @@ struct Recording {
 
   std::vector<Signal> signals;    // what else was recorded
   std::vector<Outcome> outcomes;  // what came of the run
-  std::string incident;  // what kept the arm from following its sequence, in one line; empty: nothing
+  std::string
+      incident;  // what kept the arm from following its sequence, in one line; empty: nothing
   std::string source = "recording";  // where it is from (a file's path), for messages
 
   Recording() = default;
