@@ -3,9 +3,10 @@ packages := g++ cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-de
   libtinyxml2-dev libassimp-dev zlib1g-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libegl1 libgl1-mesa-dri libopengl0 libegl-dev \
   libepoxy-dev libfreetype-dev libpng-dev fonts-dejavu-core ffmpeg libgtest-dev libgmock-dev libbenchmark-dev liborocos-kdl-dev $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
 tools := clang-format clang-tidy
-testing := chromium dpkg-dev file
+testing := chromium doxygen dpkg-dev file
+documenting := doxygen
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
-.PHONY: help bench test debug asan tsan format tidy micro meshes page readme clean
+.PHONY: help bench test debug asan tsan format tidy micro docs meshes page readme clean
 .PRECIOUS: build/%/build.ninja
 help:                                  ## this list
 	@sed -nE 's/^([a-z]+( [a-z]+)*): .*## /\1:\t/p' Makefile | expand -t 20
@@ -18,20 +19,19 @@ test: build/testing build/release/build.ninja ## build and run every test
 debug asan tsan: %: build/testing build/%/build.ninja ## build and run every test with assertions; address and UB, or thread, sanitizer
 	cmake --build --preset $@
 	ctest --preset $@
-format: build/tools                    ## check the layout of the C++ sources (FIX=1: put it right)
-	@clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources)
+format: build/tools ; @clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources) ## check the layout of the C++ sources (FIX=1: put it right)
 tidy: build/tools build/release/build.ninja ## check the C++ sources with clang-tidy
 	run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$'
 micro: build/release/build.ninja       ## measure the hot paths, each beside something bare, and print their ratios
 	cmake --build --preset release --target seam_micro
 	build/release/bench/seam_micro --out build/micro.md
+docs: build/documenting ; @sh plugin/guide/reference.sh build/docs ## make the reference and the guide: build/docs/html/index.html
 meshes page:                           ## make the arm's meshes, or the report page's template, anew (needs Node.js)
 	cd $(if $(filter page,$@),bench/page,assets/pa10/source) && npm ci && npm run $@
 readme: bench micro ; bash bench/readme.sh ## put the figures of bench, micro and experiments into the READMEs
-clean:                                 ## remove what was built
-	rm -rf build results
+clean: ; rm -rf build results          ## remove what was built
 
-build/packages build/tools build/testing: Makefile
+build/packages build/tools build/testing build/documenting: Makefile
 	@sh .ci/install-packages.sh $@.log $($(@F)) && mkdir -p build && touch $@
 build/setup: build/packages
 	@sh plugin/cmake/bullet-headers.sh build/bullet-headers && touch $@

@@ -1,18 +1,18 @@
 #!/bin/sh
-# Puts the figures that the bench left in results/ into README.md: the table between its two marks, and the pictures;
-# and the answers of the experiments into bench/experiments/README.md,
-# and what `make micro` left in build/ into bench/README.md.
-# `make readme` runs both first.
+# Puts what the bench left in results/ and `make micro` in build/ between the marks <!-- NAME --> and <!-- /NAME --> of the
+# pages that show it; makes the pictures; asks the experiments and puts their answers there too. `make readme` runs both first.
 set -eu
 cd "$(dirname "$0")/.."
-put() {  # put MARK TABLE FILE
-  awk -v mark="$1" -v table="$2" '
+put() {  # put MARK TEXT PAGE
+  awk -v mark="$1" -v text="$2" '
     $0 == "<!-- /" mark " -->" {skip = 0}
     !skip {print}
-    $0 == "<!-- " mark " -->" {print ""; while ((getline line < table) > 0) print line; print ""; skip = 1}' "$3" >"$3.part"
+    $0 == "<!-- " mark " -->" {print ""; while ((getline line < text) > 0) print line; print ""; skip = 1}' "$3" >"$3.part"
   mv "$3.part" "$3"
 }
 put table results/overview.md README.md
+awk -f bench/joins.awk results/overview.md >results/joins.md
+put joins results/joins.md plugin/guide/2-choosing-a-join.md
 put micro build/micro.md bench/README.md
 for scene in line pouring wiping carrying catching; do
   cp results/$scene/$scene.png bench/pictures/$scene.png
@@ -23,10 +23,9 @@ cp results/line/torque.png bench/pictures/line-torque.png
 cp results/carrying/wave_m.png bench/pictures/carrying-wave.png
 
 build/release/bench/seam experiment --out results/experiments
-answers=bench/experiments/README.md
-sed '/<!-- answers -->/q' $answers >$answers.part
 for question in speed joining-velocity kernel-width goal-change lag tick spilling; do
-  echo && cat results/experiments/$question.md
+  [ $question = speed ] || echo
+  cat results/experiments/$question.md
   cp results/experiments/$question.png bench/experiments/
-done >>$answers.part
-mv $answers.part $answers
+done >results/experiments/answers.md
+put answers results/experiments/answers.md bench/experiments/README.md

@@ -8,15 +8,16 @@
 
 namespace SEAM_API seam {
 
+/// The feedback, and which acceleration it is added to (see ComputedTorque).
 struct ControlSettings {
   /// `matched`: the acceleration that Bullet's semi-implicit integrator needs to arrive at the next
   /// reference position exactly. `plain`: the reference acceleration at the present time, which
   /// leaves an error of order dt.
   enum class Reference { matched, plain };
 
-  double Kp = 400.0;  // [1/s²] feedback on position
-  double Kd = 40.0;   // [1/s] feedback on velocity
-  Reference reference = Reference::matched;
+  double Kp = 400.0;                         // [1/s²] feedback on position
+  double Kd = 40.0;                          // [1/s] feedback on velocity
+  Reference reference = Reference::matched;  // of the acceleration
 };
 
 /// Gains that act once per tick of dt as Kp and Kd act all the time: an error e with ë = −Kd·ė − Kp·e has the poles λ₁ and λ₂,
@@ -28,6 +29,7 @@ struct TickGains {
   double Kd = 0.0;  // [1/s]
 
   TickGains() = default;
+  /// Of a tick of dt [s].
   TickGains(const ControlSettings& settings, double dt) noexcept;
 };
 
@@ -42,6 +44,7 @@ struct TickGains {
 /// Construction allocates; nothing else does, nor throws.
 class ComputedTorque {
  public:
+  /// Takes gains as they are: see Controller, which checks them.
   ComputedTorque(InverseDynamics dynamics, const ControlSettings& settings);
 
   /// The velocity [rad/s] with which the reference begins, n values.

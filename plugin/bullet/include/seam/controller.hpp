@@ -21,18 +21,20 @@ namespace SEAM_API seam {
 
 class Plugin;
 
+/// What a controller takes its sequence, its robot and its hardware for.
 struct ControllerSettings {
-  ControlSettings law;
+  ControlSettings law;  // feedback and reference
   std::optional<ToolSettings>
       tool;  // the sequence's coordinates are this tool's, else they are joints
   /// What the controller takes the robot for: a model that errs, or one without the passive joints that the robot in
   /// Bullet has behind all others. Else the robot's own.
   std::optional<RobotModel> model;
-  ActuatorSettings actuator;
-  SensorSettings sensor;
-  GuardSettings guard;
+  ActuatorSettings actuator;  // between the command and the joints
+  SensorSettings sensor;      // between the joints and the controller
+  GuardSettings guard;        // of the arm
 
   ControllerSettings() = default;
+  /// With an ideal actuator and sensor.
   ControllerSettings(const ControlSettings& control, std::optional<ToolSettings> of = std::nullopt,
                      std::optional<RobotModel> known = std::nullopt)
       : law(control), tool(std::move(of)), model(std::move(known)) {}
@@ -55,6 +57,7 @@ struct ControllerSettings {
 /// came to rest, gives way again where they are pushed too far, and waits for `reinitialise`; the sequence's time goes on.
 class Controller {
  public:
+  /// Whether the joints do what the sequence says.
   enum class Status {
     following,
     bridging,  ///< there is no state, for a while; it follows again once there is one
@@ -69,7 +72,8 @@ class Controller {
     Sample sequence;         // its coordinates
     Sample reference;        // n joints of the controller's model
     ToolError tool_error;    // at the tick's beginning; nothing in joint space
-    Eigen::VectorXd q, qd;   // n [rad], [rad/s]; true, where the sensor is not ideal
+    Eigen::VectorXd q;       // n [rad]; true, where the sensor is not ideal
+    Eigen::VectorXd qd;      // n [rad/s]; likewise
     Eigen::VectorXd torque;  // n [N·m]
   };
 
@@ -96,15 +100,15 @@ class Controller {
 
   /// The last switch has been due; the arm goes on to the last goal and stays there.
   bool finished() const noexcept { return sequencer_.finished(); }
-  Status status() const noexcept { return status_; }
+  Status status() const noexcept { return status_; }  // now
   /// What made it bridge or stop last; none since it was made or re-initialised.
   const Incident& incident() const noexcept { return incident_; }
   /// In one line.
   std::string what_happened() const { return describe(incident_, robot_.model()); }
   /// The sequence as it runs: for changing its goal, tau, amplitude and queue between ticks.
   Sequencer& sequencer() noexcept { return sequencer_; }
-  const Sequencer& sequencer() const noexcept { return sequencer_; }
-  const Tick& last_tick() const noexcept { return tick_; }
+  const Sequencer& sequencer() const noexcept { return sequencer_; }  // to look at
+  const Tick& last_tick() const noexcept { return tick_; }            // of the last pre_tick
 
  private:
   friend class Plugin;

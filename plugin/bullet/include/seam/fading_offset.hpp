@@ -15,14 +15,15 @@ class FadingOffset {
  public:
   static constexpr double duration = 1.0;  // [s] T
 
+  /// Of n joints, faded.
   explicit FadingOffset(int joints) : start_(joints), now_(joints) {}
 
   /// Begins now with an offset [rad or m] and its velocity, at no acceleration.
   void start(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity) noexcept;
   /// Begins anew from the present offset, its acceleration included, and this one together.
   void shift(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity) noexcept;
-  void advance(double dt) noexcept;  // [s]
-  bool faded() const noexcept { return time_ >= duration; }
+  void advance(double dt) noexcept;                          // [s]
+  bool faded() const noexcept { return time_ >= duration; }  // there is none any more
   /// Adds the present offset to a reference.
   void add_to(Sample& reference) const noexcept;
 

@@ -25,6 +25,7 @@ struct GuardSettings {
 
 /// What kept a controller from following its sequence.
 struct Incident {
+  /// Why.
   enum class Cause {
     none,
     no_state,     ///< the state was not finite, or frozen while the reference moved
@@ -34,9 +35,9 @@ struct Incident {
     unreachable,  ///< the tool cannot be where the sequence has it: out of reach, a limit, a singularity
   };
 
-  Cause cause = Cause::none;
-  double time = 0.0;   // [s] since the controller was made
-  int joint = -1;      // of deviation, goal and joint_limit
+  Cause cause = Cause::none;  // why
+  double time = 0.0;          // [s] since the controller was made
+  int joint = -1;             // of deviation, goal and joint_limit
   double value = 0.0;  // [s] without a state so far; [rad or m] deviation, goal, or reference
   double bound = 0.0;  // which it passed
 };
@@ -57,12 +58,13 @@ class Guard {
               const Eigen::VectorXd& reference) noexcept;
   /// For how long there has been no state, and whether that is too long.
   Incident dropout() const noexcept;
-  bool lost() const noexcept { return dropout_ > settings_.longest_dropout; }
+  bool lost() const noexcept { return dropout_ > settings_.longest_dropout; }  // too long
   /// Starts watching anew, with the joints at q: those that are beyond a limit already may be led as far as that.
   void restart(const Eigen::VectorXd& q) noexcept;
 
   /// Which joint passes a bound, and with what; the cause is none where none does.
   Incident deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference) const noexcept;
+  /// The same of a position that the joints should have.
   Incident beyond_limits(const Eigen::VectorXd& position) const noexcept;
   /// Moves the end of a motion back to a limit that it would pass; what is beyond one already may stay there.
   void keep_within_limits(const Eigen::VectorXd& from, Eigen::VectorXd& to) const noexcept;

@@ -18,11 +18,11 @@ class InverseDynamics {
  public:
   /// @throws Error  Bullet refuses a body (its parent does not come before it)
   explicit InverseDynamics(const RobotModel& model);
-  InverseDynamics(InverseDynamics&&) noexcept;
-  InverseDynamics& operator=(InverseDynamics&&) noexcept;
+  InverseDynamics(InverseDynamics&&) noexcept;             // takes over the tree
+  InverseDynamics& operator=(InverseDynamics&&) noexcept;  // likewise
   ~InverseDynamics();
 
-  int dof() const noexcept;
+  int dof() const noexcept;  // n joints
   /// Gravity [m/s²] in the frame of the root link; starts at (0, 0, -9.81).
   void set_gravity(const Eigen::Vector3d& gravity_in_base) noexcept;
   /// Joint torques [N·m] (forces [N] for prismatic joints) for q, q̇, q̈; dof values each.

@@ -9,18 +9,21 @@ namespace SEAM_API seam {
 
 /// Where a tool should be and how it should move, in the frame of the robot's base: (v, ω) and (v̇, ω̇).
 struct ToolState {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  Vector6d velocity = Vector6d::Zero();      // [m/s, rad/s]
-  Vector6d acceleration = Vector6d::Zero();  // [m/s², rad/s²]
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // R*, p*
+  Vector6d velocity = Vector6d::Zero();                    // [m/s, rad/s]
+  Vector6d acceleration = Vector6d::Zero();                // [m/s², rad/s²]
 };
 
 /// What the joints should do, and how well the tool follows by it.
 struct JointSolution {
-  Eigen::VectorXd position, velocity, acceleration;  // n [rad or m]
-  double position_error = 0.0;                       // [m] of the tool
-  double angle_error = 0.0;                          // [rad] likewise
+  Eigen::VectorXd position;      // n [rad or m]
+  Eigen::VectorXd velocity;      // n, per second
+  Eigen::VectorXd acceleration;  // n, per second squared
+  double position_error = 0.0;   // [m] of the tool
+  double angle_error = 0.0;      // [rad] likewise
 };
 
+/// Which of all joint positions for a pose are taken, and what gives way near a singularity (see InverseKinematics).
 struct PostureSettings {
   Eigen::VectorXd
       rest;  // n, where the joints would like to be; empty: the middle of their limits, 0 without
@@ -48,6 +51,7 @@ struct PostureSettings {
 /// Construction allocates; `follow` does not, and does not throw.
 class InverseKinematics {
  public:
+  /// What came of `follow`.
   enum class Status {
     exact,         ///< the tool is where it should be, to 1e-12
     damped,        ///< near a singularity: it is not quite there, see the solution's errors
@@ -59,7 +63,7 @@ class InverseKinematics {
   InverseKinematics(const RobotModel& model, Kinematics kinematics,
                     const PostureSettings& posture = {});
 
-  int dof() const noexcept { return kinematics_.dof(); }
+  int dof() const noexcept { return kinematics_.dof(); }  // n joints
 
   /// Finds joint positions for a pose without knowing any near: from the posture and from random ones (seeded).
   /// @return  positions for which `follow` goes on

@@ -28,12 +28,13 @@ class Kinematics {
   Kinematics(const RobotModel& model, const std::string& link,
              const Eigen::Isometry3d& X_link_tool = Eigen::Isometry3d::Identity());
 
-  int dof() const noexcept { return static_cast<int>(jacobian_.cols()); }
+  int dof() const noexcept { return static_cast<int>(jacobian_.cols()); }  // n joints
 
   /// Goes to joint positions [rad or m]; all that follows is for these.
   void move_to(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept;
+  /// The frame's pose.
   const Eigen::Isometry3d& X_base_tool() const noexcept { return X_base_tool_; }
-  const Jacobian& jacobian() const noexcept { return jacobian_; }
+  const Jacobian& jacobian() const noexcept { return jacobian_; }  // J
   /// d(Jᵀw)/dq for a constant wrench: element (j, i) is Σₖ wₖ ∂Jₖⱼ/∂qᵢ. dof × dof.
   void wrench_gradient(const Vector6d& wrench, Eigen::Ref<Eigen::MatrixXd> gradient) const noexcept;
 
@@ -41,8 +42,8 @@ class Kinematics {
   /// acceleration apart from J·q̈.
   void move_along(const Eigen::Ref<const Eigen::VectorXd>& q,
                   const Eigen::Ref<const Eigen::VectorXd>& qd) noexcept;
-  const Jacobian& jacobian_rate() const noexcept { return rate_; }
-  const Jacobian& jacobian_curvature() const noexcept { return curvature_; }
+  const Jacobian& jacobian_rate() const noexcept { return rate_; }            // J̇
+  const Jacobian& jacobian_curvature() const noexcept { return curvature_; }  // its derivative
 
  private:
   struct Link {

@@ -11,9 +11,12 @@ namespace SEAM_API seam {
 /// A setting that is one number for all joints, or a number for each.
 class PerJoint {
  public:
+  /// One for all.
   PerJoint(double all) : values_(Eigen::VectorXd::Constant(1, all)) {}
+  /// n values.
   PerJoint(Eigen::VectorXd each) : values_(std::move(each)) {}
 
+  /// That of a joint, by its index.
   double operator()(Eigen::Index joint) const {
     return values_.size() == 1 ? values_(0) : values_(joint);
   }

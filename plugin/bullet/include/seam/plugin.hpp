@@ -23,6 +23,7 @@ class WorldWatch;
 /// order, though not from inside a tick.
 class Plugin {
  public:
+  /// Takes the world's pre-tick.
   explicit Plugin(btMultiBodyDynamicsWorld& world);
   Plugin(const Plugin&) = delete;
   Plugin& operator=(const Plugin&) = delete;
@@ -30,6 +31,7 @@ class Plugin {
 
   /// Controllers are called in the order in which they were added; adding one twice does nothing.
   void add(Controller& controller);
+  /// The controller is not called any more.
   void remove(Controller& controller) noexcept;
 
  private:

@@ -21,8 +21,9 @@
 
 namespace SEAM_API seam {
 
-// Each is in one of the two libraries alone: with the other one the linker names what is missing.
+/// In seam::bullet alone: a program that is linked with the other library misses it, and the linker names it.
 extern const char this_needs_seam_bullet;
+/// In seam::bullet-float32 alone, likewise.
 extern const char this_needs_seam_bullet_float32;
 
 #ifdef BT_USE_DOUBLE_PRECISION

@@ -16,6 +16,7 @@ class btMultiBodyDynamicsWorld;
 
 namespace SEAM_API seam {
 
+/// Where a robot stands, and what it is to collisions.
 struct RobotSettings {
   Eigen::Isometry3d X_world_base = Eigen::Isometry3d::Identity();  // pose of the URDF's root link
   std::vector<std::string> package_path;  // where package:// names are looked up first
@@ -40,16 +41,18 @@ class Robot {
   /// @throws Error  see RobotModel::read and load_mesh; Bullet's libraries of both precisions are loaded
   static Robot load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
                     const RobotSettings& settings = {});
+  /// The same from a model that has been read already, or made.
+  /// @throws Error  as `load`
   Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSettings& settings = {});
-  Robot(Robot&&) noexcept;
-  Robot& operator=(Robot&&) noexcept;
+  Robot(Robot&&) noexcept;             // controllers that borrow it must be made afterwards
+  Robot& operator=(Robot&&) noexcept;  // likewise
   ~Robot();
 
-  const RobotModel& model() const noexcept;
-  int dof() const noexcept { return model().dof(); }
-  btMultiBody& multibody() noexcept;
-  const btMultiBody& multibody() const noexcept;
-  btMultiBodyDynamicsWorld& world() const noexcept;
+  const RobotModel& model() const noexcept;           // as it was read
+  int dof() const noexcept { return model().dof(); }  // n joints
+  btMultiBody& multibody() noexcept;                  // in Bullet; link i is joint i's body
+  const btMultiBody& multibody() const noexcept;      // likewise
+  btMultiBodyDynamicsWorld& world() const noexcept;   // in which it stands
 
   /// Positions [rad or m] and velocities [rad/s or m/s] of as many joints, from the first on, as there is room for.
   void state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
@@ -57,8 +60,9 @@ class Robot {
   /// wait for the next step stay.
   void reset(const Eigen::Ref<const Eigen::VectorXd>& q,
              const Eigen::Ref<const Eigen::VectorXd>& qd);
-  /// Pose of the root link in the world, and of any URDF link at the multibody's present state.
+  /// Pose of the root link in the world.
   Eigen::Isometry3d X_world_base() const noexcept;
+  /// Pose of any URDF link in the world, at the multibody's present state.
   Eigen::Isometry3d X_world_frame(const Frame& frame) const noexcept;
   /// The world's gravity in the frame of the root link [m/s²].
   Eigen::Vector3d gravity_in_base() const noexcept;

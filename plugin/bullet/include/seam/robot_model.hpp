@@ -26,11 +26,12 @@ Inertial operator+(const Inertial& a, const Inertial& b);
 
 /// One shape of a body, as the URDF gives it.
 struct Geometry {
+  /// Kind of shape.
   enum class Type { box, cylinder, sphere, mesh };
 
-  Type type = Type::sphere;
-  Eigen::Isometry3d X_body_shape = Eigen::Isometry3d::Identity();
-  // [m] box: edges; cylinder: radius, -, length; sphere: radius
+  Type type = Type::sphere;                                        // kind of shape
+  Eigen::Isometry3d X_body_shape = Eigen::Isometry3d::Identity();  // pose in the body
+  /// [m] box: edges; cylinder: radius, -, length; sphere: radius
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   std::string mesh;                                 // absolute path of the mesh file
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  // of the mesh
@@ -42,23 +43,25 @@ struct Geometry {
 /// A rigid body that moves with one joint: the URDF link behind the joint and every link fixed to
 /// it. Its frame is the URDF link's, hence the joint's.
 struct Body {
-  std::string link;   // name of the URDF link behind the joint
-  Inertial inertial;  // all fixed links together, in the body frame
-  std::vector<Geometry> visuals;
-  std::vector<Geometry> collisions;
+  std::string link;                  // name of the URDF link behind the joint
+  Inertial inertial;                 // all fixed links together, in the body frame
+  std::vector<Geometry> visuals;     // to be seen
+  std::vector<Geometry> collisions;  // to be touched
 };
 
 /// A joint with one degree of freedom, moving body i against its parent body.
 struct Joint {
+  /// Turns between limits, turns without end, or slides.
   enum class Type { revolute, continuous, prismatic };
 
-  std::string name;
-  Type type = Type::revolute;
-  int parent = -1;  // index of the parent body, -1: the base
-  // pose of the body in its parent at q = 0
+  std::string name;            // in the URDF
+  Type type = Type::revolute;  // how it moves
+  int parent = -1;             // index of the parent body, -1: the base
+  /// Pose of the body in its parent at q = 0.
   Eigen::Isometry3d X_parent_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit, in the body frame
-  double lower = 0.0, upper = 0.0;                  // [rad or m]; ±infinity if continuous
+  double lower = 0.0;                               // [rad or m]; -infinity if continuous
+  double upper = 0.0;                               // [rad or m]; infinity if continuous
   double speed = 0.0;   // [rad/s or m/s]; infinity if continuous and without a limit
   double effort = 0.0;  // [N·m or N]; likewise
 
@@ -68,9 +71,9 @@ struct Joint {
 
 /// A named frame (any URDF link) on a body; index -1 is the base.
 struct Frame {
-  std::string name;
-  int body = -1;
-  Eigen::Isometry3d X_body_frame = Eigen::Isometry3d::Identity();
+  std::string name;                                                // of the link
+  int body = -1;                                                   // that carries it
+  Eigen::Isometry3d X_body_frame = Eigen::Isometry3d::Identity();  // pose in the body
 };
 
 /// A fixed-base robot as plain data, read from a URDF and checked. Links behind fixed joints are
@@ -78,13 +81,13 @@ struct Frame {
 /// index everywhere; the merged links remain as frames. Parents come before their children,
 /// branches in the order of the URDF's <joint> elements.
 struct RobotModel {
-  std::string name;
+  std::string name;           // in the URDF
   Body base;                  // fixed to the world; needs no mass
   std::vector<Joint> joints;  // joint i moves body i
-  std::vector<Body> bodies;
+  std::vector<Body> bodies;   // parents before children
   std::vector<Frame> frames;  // one per URDF link, the root link first
 
-  int dof() const { return static_cast<int>(joints.size()); }
+  int dof() const { return static_cast<int>(joints.size()); }  // n
   /// @throws Error  no joint of that name (lists those there are)
   int joint(const std::string& joint_name) const;
   /// @throws Error  no link of that name

@@ -13,14 +13,15 @@ namespace SEAM_API seam {
 
 /// A time in which the joints' state does not come through, from the first tick at or after its beginning on.
 struct Dropout {
+  /// What comes instead.
   enum class What {
     missing,  ///< all values are NaN
     frozen,   ///< all values stay as they were measured last
   };
 
-  double from = 0.0;  // [s] since the controller was made
-  double to = 0.0;    // [s]
-  What what = What::missing;
+  double from = 0.0;          // [s] since the controller was made
+  double to = 0.0;            // [s]
+  What what = What::missing;  // comes instead
 };
 
 /// What becomes of the joints' state on its way to the controller; by default nothing.
@@ -30,7 +31,7 @@ struct SensorSettings {
   PerJoint position_noise = 0.0;  // [rad] standard deviation of white noise
   PerJoint velocity_noise = 0.0;  // [rad/s] likewise
   int seed = 0;                   // of the noise
-  std::vector<Dropout> dropouts;
+  std::vector<Dropout> dropouts;  // in any order
 };
 
 /// True state in, measured state out, once per tick at a time t:
@@ -40,7 +41,7 @@ struct SensorSettings {
 /// after construction.
 class Sensor {
  public:
-  static constexpr int most_ticks = 1000;
+  static constexpr int most_ticks = 1000;  // that are remembered
 
   /// @throws Error  a setting is negative or not finite, there are not as many as joints, or a dropout does not end after it
   ///                began
@@ -52,8 +53,8 @@ class Sensor {
   void measure(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& qd) noexcept;
   /// The state before now is none of this one's past any more: the arm was put elsewhere.
   void forget() noexcept { count_ = 0; }
-  const Eigen::VectorXd& q() const noexcept { return q_; }
-  const Eigen::VectorXd& qd() const noexcept { return qd_; }
+  const Eigen::VectorXd& q() const noexcept { return q_; }    // n, as measured last
+  const Eigen::VectorXd& qd() const noexcept { return qd_; }  // likewise
 
  private:
   struct Seen {

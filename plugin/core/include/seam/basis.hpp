@@ -14,10 +14,11 @@ namespace SEAM_API seam {
 /// centres. Evaluation neither allocates nor throws.
 class Basis {
  public:
+  /// Takes a primitive that is valid.
   explicit Basis(const Primitive& primitive);
 
-  Kind kind() const noexcept { return kind_; }
-  int count() const noexcept { return count_; }
+  Kind kind() const noexcept { return kind_; }   // of the phase
+  int count() const noexcept { return count_; }  // M kernels
   /// x = 1 or φ = 0.
   double start_phase() const noexcept { return kind_ == Kind::discrete ? 1.0 : 0.0; }
   /// The phase a time t [s] after it was `phase`, in closed form: x·exp(−αt/τ) (Eq. 4) or φ + t/τ (Eq. 11).

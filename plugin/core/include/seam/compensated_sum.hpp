@@ -8,9 +8,11 @@ namespace SEAM_API seam {
 /// is kept and added with the next (Kahan). After n terms the error is of one rounding, not of n.
 class CompensatedSum {
  public:
+  /// Begins with a value.
   CompensatedSum(double value = 0.0) noexcept
       : value_(value) {}  // NOLINT(google-explicit-constructor)
 
+  /// Adds a term.
   CompensatedSum& operator+=(double term) noexcept {
     const double whole = term - excess_;
     const double next = value_ + whole;
@@ -18,6 +20,7 @@ class CompensatedSum {
     value_ = next;
     return *this;
   }
+  /// The sum so far.
   operator double() const noexcept { return value_; }  // NOLINT(google-explicit-constructor)
 
  private:

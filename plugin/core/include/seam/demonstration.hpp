@@ -37,9 +37,9 @@ struct Demonstration {
   /// q₀ of the coordinates rx ry rz (see with_rotation_vector), where it is known.
   std::optional<Eigen::Quaterniond> reference_orientation = std::nullopt;
 
-  int samples() const { return static_cast<int>(time.size()); }
-  int dimensions() const { return static_cast<int>(position.cols()); }
-  double duration() const { return time(time.size() - 1) - time(0); }  // [s]
+  int samples() const { return static_cast<int>(time.size()); }         // N
+  int dimensions() const { return static_cast<int>(position.cols()); }  // D
+  double duration() const { return time(time.size() - 1) - time(0); }   // [s]
 
   /// Takes derivatives from the positions by a smoothing fit. The positions stay as they are.
   /// @throws Error  fewer than five samples, sizes that do not match, a time that does not

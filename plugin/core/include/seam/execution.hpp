@@ -64,13 +64,14 @@ class Execution {
   /// The phase of a rhythmic primitive at which the least correction is needed to continue from a state.
   double least_correction_phase(const Sample& at) noexcept;
 
-  Kind kind() const noexcept { return basis_.kind(); }
-  const Basis& basis() const noexcept { return basis_; }
-  double phase() const noexcept { return phase_; }
-  double tau() const noexcept { return tau_; }  // [s]
-  double amplitude() const noexcept { return amplitude_; }
+  Kind kind() const noexcept { return basis_.kind(); }      // of the primitive
+  const Basis& basis() const noexcept { return basis_; }    // of the primitive
+  double phase() const noexcept { return phase_; }          // x or φ
+  double tau() const noexcept { return tau_; }              // [s] what it is now
+  double amplitude() const noexcept { return amplitude_; }  // what it is now
+  /// What it is now; D values.
   Eigen::VectorXd::ConstSegmentReturnType goal() const noexcept { return goal_.head(dimensions()); }
-  int dimensions() const noexcept { return static_cast<int>(sample_.position.size()); }
+  int dimensions() const noexcept { return static_cast<int>(sample_.position.size()); }  // D
 
  private:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

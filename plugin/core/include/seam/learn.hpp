@@ -17,20 +17,21 @@ enum class LearnMethod {
   locally_weighted,
 };
 
+/// How a primitive is learned; the defaults are the paper's, its widths read as multiples of the distance.
 struct LearnSettings {
-  Kind kind = Kind::discrete;
-  int kernels = 0;  // M; 0: 10 if discrete, 20 if rhythmic
+  Kind kind = Kind::discrete;  // of the primitive
+  int kernels = 0;             // M; 0: 10 if discrete, 20 if rhythmic
   /// Multiple of the distance between kernels; 0: 0.75 if discrete, 0.32·20/2π if rhythmic.
   double width = 0.0;
   double alpha = 2.0;   // decay of the discrete phase; x(τ) = exp(−alpha)
   double period = 0.0;  // [s] of a rhythmic movement; 0: found (see find_period)
-  LearnMethod method = LearnMethod::least_squares;
+  LearnMethod method = LearnMethod::least_squares;  // for the weights
   /// [m or rad] > 0: the smallest number of kernels that reproduces the demonstration to this
   /// (LearnReport::error_max), with the best of the widths 0.5, 0.75, 1.0 and 1.5; `kernels` is
   /// then the most that are tried (0: 100) and `width`, unless 0, the only width. Each trial takes
   /// one learning and one roll-out.
   double precision = 0.0;
-  Gains gains;
+  Gains gains;  // of the primitive
 };
 
 /// Learns from a demonstration. The target is Eq. 12 with r = g, so that second- and third-order

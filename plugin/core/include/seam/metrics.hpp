@@ -32,6 +32,7 @@ Eigen::VectorXd jump(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal,
 /// off, 2 for a smooth signal.
 double jump_order(double at_dt, double at_half_dt);
 
+/// What there is to choose in measuring.
 struct MetricSettings {
   int line_ticks = 3;         // of `jump`
   double after_join = 0.2;    // [s] in which tracking counts as the join's, or until the next join
@@ -63,25 +64,25 @@ struct JoinMetrics {
 /// A whole run. Derivatives are differences between neighbouring ticks, xₖ₊₁ − xₖ over dt: of a
 /// step they are its size over dt, so compare runs of the same dt. NaN as above.
 struct RunMetrics {
-  std::vector<JoinMetrics> joins;
+  std::vector<JoinMetrics> joins;   // one per join, the start included
   double torque_jump_nm = unknown;  // worst over the joins; NaN where one could not be measured
-  double torque_jump_percent = unknown;
-  double torque_jump_order = unknown;  // of the join where torque_jump_nm is largest
-  double acceleration_jump_rad_s2 = unknown;
-  double acceleration_jump_m_s2 = unknown;
+  double torque_jump_percent = unknown;       // likewise
+  double torque_jump_order = unknown;         // of the join where torque_jump_nm is largest
+  double acceleration_jump_rad_s2 = unknown;  // worst over the joins
+  double acceleration_jump_m_s2 = unknown;    // likewise
   double torque_rate_peak_nm_s = unknown;  // [N·m/s] largest |Δtorque|/dt over joints and ticks
   double torque_rate_rms_nm_s = unknown;  // √mean((Δtorque/dt)²) of the joint where it is largest
   double jerk_peak_rad_s3 = unknown;      // [rad/s³] of the reference acceleration, likewise
-  double jerk_rms_rad_s3 = unknown;
-  double tracking_max_rad = unknown;  // [rad] largest |ref − q| over joints and ticks
-  double tracking_rms_rad = unknown;  // √mean(|ref − q|²) of the joint where it is largest
+  double jerk_rms_rad_s3 = unknown;       // likewise
+  double tracking_max_rad = unknown;      // [rad] largest |ref − q| over joints and ticks
+  double tracking_rms_rad = unknown;      // √mean(|ref − q|²) of the joint where it is largest
   double tracking_after_join_max_rad = unknown;  // worst over the joins
-  double tool_tracking_max_m = unknown;  // [m] largest distance of the tool from its reference
-  double tool_tracking_rms_m = unknown;
+  double tool_tracking_max_m = unknown;    // [m] largest distance of the tool from its reference
+  double tool_tracking_rms_m = unknown;    // √mean of its square
   double tool_tracking_max_rad = unknown;  // [rad] likewise, angle of the rotation between them
-  double tool_tracking_rms_rad = unknown;
-  double tool_tracking_after_join_max_m = unknown;  // worst over the joins
-  double tool_tracking_after_join_max_rad = unknown;
+  double tool_tracking_rms_rad = unknown;  // √mean of its square
+  double tool_tracking_after_join_max_m = unknown;    // worst over the joins
+  double tool_tracking_after_join_max_rad = unknown;  // likewise
   /// Share of the ticks in which a joint's commanded |torque| ≥ its effort limit
   double saturated_share = unknown;
   /// [rad] largest |ref − dmp2's ref| over joints and ticks: the price of smoothness

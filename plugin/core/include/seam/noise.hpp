@@ -11,8 +11,10 @@ namespace SEAM_API seam {
 /// in [0, 1), less 6, which lies within ±6.
 class Noise {
  public:
+  /// The same seed gives the same numbers.
   explicit Noise(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
 
+  /// The next number.
   double normal() noexcept {
     double sum = -6.0;
     for (int i = 0; i < 12; ++i) sum += static_cast<double>(random_() >> 11) * 0x1p-53;

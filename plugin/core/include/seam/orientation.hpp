@@ -28,9 +28,9 @@ struct RotationState {
 /// Orientation, angular velocity and angular acceleration, all in one fixed frame (a body's own:
 /// q⁻¹·ω).
 struct OrientationState {
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // ω [rad/s]
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // ω̇ [rad/s²]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // q
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               // ω [rad/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();           // ω̇ [rad/s²]
 };
 
 /// The shorter of the two rotation vectors [rad] of q·q₀⁻¹, its length in [0, π]; q and −q give the

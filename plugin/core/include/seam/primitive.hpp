@@ -34,7 +34,7 @@ struct Kernels {
   Eigen::VectorXd centers;  // cⱼ: in (0, 1] if discrete, [rad] if rhythmic
   Eigen::VectorXd widths;   // σⱼ > 0
 
-  int count() const { return static_cast<int>(centers.size()); }
+  int count() const { return static_cast<int>(centers.size()); }  // M
 
   /// Discrete: centres even in time, cⱼ = exp(−α(j − 1)/(M − 1)), and widths σⱼ = width·|cⱼ₊₁ − cⱼ|
   /// (the last repeats the one before). The paper's σ = 0.5 is read as such a multiple of the distance
@@ -49,9 +49,10 @@ struct Kernels {
 /// What a primitive's numbers must lie within, so that all it is played to stays finite: generous,
 /// the usual ones are in the middle.
 struct Bounds {
-  double least;
-  double largest;
+  double least;    // allowed
+  double largest;  // allowed
 
+  /// Whether a value is within them; a NaN is not.
   bool hold(double value) const { return value >= least && value <= largest; }
 };
 
@@ -69,21 +70,21 @@ inline constexpr Bounds value_bounds{-1e30, 1e30};  // weights, goal and start, 
 /// The second-order system is the same with r = g throughout. A rhythmic primitive of period T has
 /// τ = T/2π; its goal is the centre about which it moves; its amplitude A is 1 as learned.
 struct Primitive {
-  Kind kind = Kind::discrete;
+  Kind kind = Kind::discrete;            // of the phase and the forcing
   std::vector<std::string> coordinates;  // D names
-  Gains gains;
-  double alpha = 2.0;                  // decay of the discrete phase
-  Kernels kernels;                     // M
-  Eigen::MatrixXd weights;             // M × D
-  Eigen::VectorXd goal;                // D
-  double tau = 1.0;                    // [s] time constant: a demonstration's duration, or T/2π
-  Eigen::VectorXd start_position;      // D, where the demonstration began
-  Eigen::VectorXd start_velocity;      // D, per second
-  Eigen::VectorXd start_acceleration;  // D, per second squared
+  Gains gains;                           // K, D, H
+  double alpha = 2.0;                    // decay of the discrete phase
+  Kernels kernels;                       // M
+  Eigen::MatrixXd weights;               // M × D
+  Eigen::VectorXd goal;                  // D
+  double tau = 1.0;                      // [s] time constant: a demonstration's duration, or T/2π
+  Eigen::VectorXd start_position;        // D, where the demonstration began
+  Eigen::VectorXd start_velocity;        // D, per second
+  Eigen::VectorXd start_acceleration;    // D, per second squared
   /// q₀ of the coordinates rx ry rz (see orientation.hpp), where it is known.
   std::optional<Eigen::Quaterniond> reference_orientation = std::nullopt;
 
-  int dimensions() const { return static_cast<int>(goal.size()); }
+  int dimensions() const { return static_cast<int>(goal.size()); }  // D
   /// The same movement, faster by a factor > 0.
   Primitive at_speed(double factor) const;
 

@@ -15,10 +15,11 @@ namespace SEAM_API seam {
 /// Φ and Γ come from one matrix exponential (Van Loan), so no dt is unstable and the error of a
 /// whole motion is of order dt⁴, from the quadratic alone.
 struct Propagator {
-  Eigen::Matrix4d Phi = Eigen::Matrix4d::Identity();
+  Eigen::Matrix4d Phi = Eigen::Matrix4d::Identity();                        // of s
   Eigen::Matrix<double, 2, 3> Gamma = Eigen::Matrix<double, 2, 3>::Zero();  // of y − g and ẏ
 
   Propagator() = default;
+  /// For a step of dt [s] ≥ 0.
   Propagator(const Gains& gains, double tau, double dt) noexcept;
 };
 

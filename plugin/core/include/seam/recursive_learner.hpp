@@ -34,7 +34,7 @@ class RecursiveLearner {
            const Eigen::Ref<const Eigen::VectorXd>& velocity,
            const Eigen::Ref<const Eigen::VectorXd>& acceleration) noexcept;
 
-  int samples() const noexcept { return samples_; }
+  int samples() const noexcept { return samples_; }  // so far
   /// What is learned so far.
   const Primitive& primitive() const noexcept { return primitive_; }
 

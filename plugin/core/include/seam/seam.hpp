@@ -1,5 +1,8 @@
 #pragma once
 
+/// @namespace seam
+/// Everything of seam: what is declared where is in the reference's list of headers.
+
 // The core of seam, in the order in which the data flows.
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>

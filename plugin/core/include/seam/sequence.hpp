@@ -11,6 +11,7 @@ namespace SEAM_API seam {
 
 /// When a primitive hands over to the next (the last one: when the sequence counts as finished).
 struct Switch {
+  /// What is waited for.
   enum class When {
     after,       ///< a time [s] after the primitive has begun
     before_end,  ///< a time [s] before a discrete primitive's end, which is tau after its beginning
@@ -20,47 +21,57 @@ struct Switch {
     on_call,     ///< when Sequencer::hand_over is called, and not before
   };
 
-  When when = When::before_end;
-  double value = 0.0;  // [s], phase, [rad or m], or number, as `when` says
+  When when = When::before_end;  // what is waited for
+  double value = 0.0;            // [s], phase, [rad or m], or number, as `when` says
 };
 
+/// A time [s] after the primitive has begun.
 inline Switch after(double seconds) {
   return {Switch::When::after, seconds};
 }
+/// A time [s] before a discrete primitive's end.
 inline Switch before_end(double seconds) {
   return {Switch::When::before_end, seconds};
 }
+/// At a discrete primitive's end.
 inline Switch at_end() {
   return before_end(0.0);
 }
+/// When x has fallen to a value in (0, 1), or φ [rad] comes to one.
 inline Switch at_phase(double phase) {
   return {Switch::When::at_phase, phase};
 }
+/// At the first tick with all coordinates within a distance [rad or m] of the goal.
 inline Switch near_goal(double distance) {
   return {Switch::When::near_goal, distance};
 }
+/// After a number of a rhythmic primitive's cycles, whole or not.
 inline Switch after_cycles(double cycles) {
   return {Switch::When::cycles, cycles};
 }
+/// When Sequencer::hand_over is called.
 inline Switch on_call() {
   return {Switch::When::on_call, 0.0};
 }
 
 /// At which phase a primitive is entered. A discrete one always at its beginning.
 struct Entry {
+  /// At what place of the cycle.
   enum class Where {
     beginning,         ///< x = 1, φ = 0
     phase,             ///< φ = phase
     least_correction,  ///< the φ at which the state that is joined to needs the least correction
   };
 
-  Where where = Where::beginning;
-  double phase = 0.0;  // [rad]
+  Where where = Where::beginning;  // at what place of the cycle
+  double phase = 0.0;              // [rad]
 };
 
+/// At a phase φ [rad].
 inline Entry from_phase(double phase) {
   return {Entry::Where::phase, phase};
 }
+/// At the phase where the state that is joined to needs the least correction.
 inline Entry least_correction() {
   return {Entry::Where::least_correction, 0.0};
 }
@@ -71,10 +82,11 @@ inline Entry least_correction() {
 ///     task.then(reach).until(before_end(0.4)).then(wipe).enter(least_correction()).until(after_cycles(3)).then(away);
 class Sequence {
  public:
+  /// One primitive's part.
   struct Step {
-    Primitive primitive;
-    Switch until;
-    Entry entry;
+    Primitive primitive;  // a copy
+    Switch until;         // when it hands over
+    Entry entry;          // at which phase it is entered
   };
 
   /// Holds the start position for a time [s] ≥ 0 before the first primitive begins.
@@ -92,8 +104,8 @@ class Sequence {
   /// @throws Error  nothing appended yet, the primitive is discrete, or the phase is not finite
   Sequence& enter(Entry entry);
 
-  double start_delay() const { return start_delay_; }  // [s]
-  const std::vector<Step>& steps() const { return steps_; }
+  double start_delay() const { return start_delay_; }        // [s]
+  const std::vector<Step>& steps() const { return steps_; }  // in their order
   /// Coordinate names, those of the first primitive.
   /// @throws Error  the sequence is empty
   const std::vector<std::string>& coordinates() const;

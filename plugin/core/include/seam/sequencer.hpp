@@ -48,11 +48,10 @@ class Sequencer {
   /// Hands over to the next primitive now, whatever its switch says; the last one is finished by it. False where the
   /// sequence is finished already.
   bool hand_over() noexcept;
-  /// Goal, tau [s] and amplitude of what runs now (see Execution). False, and no change, where nothing runs yet or the
-  /// value will not do.
+  /// Goal of what runs now (see Execution). False, and no change, where nothing runs yet or the value will not do.
   bool set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept;
-  bool set_tau(double tau) noexcept;
-  bool set_amplitude(double amplitude) noexcept;
+  bool set_tau(double tau) noexcept;              // [s] likewise
+  bool set_amplitude(double amplitude) noexcept;  // likewise
   /// Slows down (rate < 1), speeds up (> 1) or pauses (0) the whole sequence: its time moves smoothly to another rate over a
   /// time [s] > 0, on the same path, with every method (see TimeScale). For a pause this is the way; a large tau is not, for
   /// with v = τẏ an arm that moves would go on moving. While the rate moves every step is of another
@@ -76,7 +75,7 @@ class Sequencer {
   /// The present state in real time with the jerk, also while the rate moves (see TimeScale).
   const Sample& state() noexcept;
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
-  double rate() const noexcept { return scale_.rate(); }
+  double rate() const noexcept { return scale_.rate(); }  // of the sequence's time to real time
   /// Goal of what runs now, or runs first.
   Eigen::VectorXd::ConstSegmentReturnType goal() const noexcept {
     return running_ < 0 ? items_.front().execution.goal() : now().goal();
@@ -84,9 +83,9 @@ class Sequencer {
   int running() const noexcept {
     return running_;
   }  // index of the primitive; -1 while still waiting
-  double phase() const noexcept { return running_ < 0 ? 0.0 : now().phase(); }
+  double phase() const noexcept { return running_ < 0 ? 0.0 : now().phase(); }  // x or φ
   bool finished() const noexcept { return finished_; }  // the last switch has been due
-  int dimensions() const noexcept { return static_cast<int>(start_.position.size()); }
+  int dimensions() const noexcept { return static_cast<int>(start_.position.size()); }  // D
   /// Joins so far, the start included.
   int joins() const noexcept { return joins_; }
   /// The oldest that is still there: 0 until `append` or `replace` find more than `kept_joins`.
@@ -95,7 +94,7 @@ class Sequencer {
   const JoinEvent& join(int i) const noexcept {
     return events_[static_cast<std::size_t>(i - first_join_)];
   }
-  static constexpr int kept_joins = 100;
+  static constexpr int kept_joins = 100;  // at least, of those that are past
 
  private:
   struct Item {

@@ -32,29 +32,35 @@ inline std::string number(double value) {
 template <typename Derived>
 class RecordingMatcher {
  public:
-  using is_gtest_matcher = void;
+  using is_gtest_matcher = void;  // by which GoogleTest knows it
 
+  /// For GoogleTest: whether there is nothing wrong, and else what.
   bool MatchAndExplain(const Recording& recording, std::ostream* explanation) const {
     const std::string reason = static_cast<const Derived&>(*this).why_not(recording);
     if (explanation) *explanation << reason;
     return reason.empty();
   }
+  /// For GoogleTest: what is wanted.
   void DescribeTo(std::ostream* text) const {
     *text << static_cast<const Derived&>(*this).wanted();
   }
+  /// For GoogleTest: what Not() wants.
   void DescribeNegationTo(std::ostream* text) const { *text << "not: ", DescribeTo(text); }
 };
 
 /// No joint's signal steps by more than a limit at some times (see `jump`: the difference of the one-sided limits).
 class NoJump : public RecordingMatcher<NoJump> {
  public:
+  /// The signal.
   struct Of {
-    const char* name;
-    const char* unit;
-    Eigen::MatrixXd Recording::*values;
+    const char* name;                    // in the message
+    const char* unit;                    // likewise
+    Eigen::MatrixXd Recording::*values;  // where it is recorded
   };
 
-  /// @param times  [s]; empty: all joins of the recording
+  /// @param signal  what must not step
+  /// @param times   [s]; empty: all joins of the recording
+  /// @param limit   in the signal's unit
   NoJump(const Of& signal, std::vector<double> times, double limit)
       : signal_(signal), times_(std::move(times)), limit_(limit) {}
 
@@ -91,6 +97,7 @@ class NoJump : public RecordingMatcher<NoJump> {
     }
     return reason;
   }
+  /// What is wanted, in words.
   std::string wanted() const {
     std::string text = std::string(signal_.name) + " steps by no more than " +
                        detail::number(limit_) + " " + signal_.unit;
@@ -110,7 +117,9 @@ class NoJump : public RecordingMatcher<NoJump> {
 /// Torque at a time [s]: `TorqueIsContinuousAt(join).within(0.5 /*N·m*/)`.
 class TorqueIsContinuousAt {
  public:
+  /// @param time  [s]
   explicit TorqueIsContinuousAt(double time) : time_(time) {}
+  /// @param limit_nm  [N·m]
   NoJump within(double limit_nm) const {
     return {{"torque", "N·m", &Recording::torque}, {time_}, limit_nm};
   }
@@ -122,6 +131,7 @@ class TorqueIsContinuousAt {
 /// Torque at every join of the recording: `TorqueIsContinuousAtAllJoins().within(0.5 /*N·m*/)`.
 class TorqueIsContinuousAtAllJoins {
  public:
+  /// @param limit_nm  [N·m]
   NoJump within(double limit_nm) const {
     return {{"torque", "N·m", &Recording::torque}, {}, limit_nm};
   }
@@ -130,7 +140,9 @@ class TorqueIsContinuousAtAllJoins {
 /// Acceleration of the joints' reference at a time [s], within a limit [rad/s²].
 class AccelerationIsContinuousAt {
  public:
+  /// @param time  [s]
   explicit AccelerationIsContinuousAt(double time) : time_(time) {}
+  /// @param limit_rad_s2  [rad/s²]
   NoJump within(double limit_rad_s2) const {
     return {{"reference acceleration", "rad/s²", &Recording::ref_acc}, {time_}, limit_rad_s2};
   }
@@ -142,8 +154,10 @@ class AccelerationIsContinuousAt {
 /// No joint is further from its reference than a limit [rad], at any tick: `TracksWithin(1e-3)`.
 class TracksWithin : public RecordingMatcher<TracksWithin> {
  public:
+  /// @param limit_rad  [rad]
   explicit TracksWithin(double limit_rad) : limit_(limit_rad) {}
 
+  /// Empty if so, else the joint that is furthest off, by how much and when.
   std::string why_not(const Recording& recording) const {
     if (recording.ref.size() == 0 || recording.ref.size() != recording.q.size())
       return "tracking cannot be measured: needs ref and q of the joints";
@@ -156,6 +170,7 @@ class TracksWithin : public RecordingMatcher<TracksWithin> {
            detail::number(recording.time(tick)) + " s, must be within " + detail::number(limit_) +
            " rad";
   }
+  /// What is wanted, in words.
   std::string wanted() const {
     return "joints stay within " + detail::number(limit_) + " rad of their references";
   }

@@ -12,7 +12,7 @@ namespace SEAM_API seam {
 
 /// A sequence and what a file says beside it.
 struct SequenceFile {
-  Sequence sequence;
+  Sequence sequence;                    // ready to be played
   std::vector<std::string> primitives;  // names, one per step
   std::optional<Sample> start;          // the state to start from, where it is given
 
