@@ -1,42 +1,63 @@
 #!/usr/bin/env bash
-# Usage: refused.sh SEAM PREFIX FOLDER
-# Configures and builds every way of mixing Bullet's precisions; each must fail, and say so.
+# Usage: refused.sh PREFIX FOLDER
+# Builds every way of mixing Bullet's precisions; each must fail, and say so.
 set -u
-seam=$1 prefix=$2 folder=$3
+mixed=$(cd "$(dirname "$0")/mixed" && pwd)
+prefix=$1 folder=$2
+export LC_ALL=C
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$(echo "$prefix"/lib/*/pkgconfig)
+libraries=$(pkg-config --variable=libdir seam-core)
 failed=0
 
-refused() { # CASE TEXT
-  rm -rf "$folder/$1"
-  if { cmake -G Ninja -S "$seam/tests/consumer/mixed" -B "$folder/$1" -DCASE="$1" -DSEAM="$seam" \
-    -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$folder/$1"; } >"$folder/$1.log" 2>&1; then
-    echo "$1: is built, must be refused"
+refused() { # CASE TEXT COMMAND...
+  local name=$1 text=$2 log=$folder/$1.log
+  shift 2
+  if "$@" >"$log" 2>&1; then
+    echo "$name: is built, must be refused"
     failed=1
-  elif ! tr -s ' \n' ' ' <"$folder/$1.log" | grep -q -e "$2"; then
-    echo "$1: fails without saying \"$2\":"
-    tail -n 20 "$folder/$1.log"
+  elif ! tr -s ' \n' ' ' <"$log" | grep -q -e "$text"; then
+    echo "$name: fails without saying \"$text\":"
+    tail -n 20 "$log"
     failed=1
   else
-    echo "$1: refused"
+    echo "$name: refused"
   fi
 }
 
-mkdir -p "$folder"
-refused both 'BULLET_PRECISION'
-refused definition 'seam::bullet-float32 does not go with BT_USE_DOUBLE_PRECISION'
-refused undefined 'seam::bullet needs BT_USE_DOUBLE_PRECISION'
-refused double_with_float 'links seam in one precision and Bullet in the other'
-refused float_with_double 'links seam in one precision and Bullet in the other'
-refused link 'undefined reference to .seam::this_needs_seam_bullet_float32'
+project() { # CASE
+  rm -rf "${folder:?}/$1"
+  cmake -G Ninja -S "$mixed" -B "$folder/$1" -DCASE="$1" -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$folder/$1"
+}
 
-# By pkg-config, where neither compiler nor linker sees it: refused before anything moves.
-export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$(echo "$prefix"/lib/*/pkgconfig)
-libraries=$(pkg-config --variable=libdir seam-core)
-if ! g++ -std=c++17 "$seam/plugin/examples/02_own_robot.cpp" -o "$folder/loaded" -Wl,--no-as-needed \
-  $(pkg-config --cflags seam-bullet) $(pkg-config --libs seam-bullet bullet); then
-  failed=1
-elif ! LD_LIBRARY_PATH=$libraries "$folder/loaded" "$seam/tests/data/lift_arm.urdf" 2>&1 |
-  grep -q 'its float and its -float64 libraries are both in this program'; then
-  echo "loaded: both of Bullet's libraries are loaded, and nobody says so"
-  failed=1
-fi
+# By CMake.
+float_refused='TLS reference in .* mismatches non-TLS [a-z]* in [^ ]*/lib[A-Za-z]*\.so'
+double_refused='TLS reference in .* mismatches non-TLS [a-z]* in [^ ]*/lib[A-Za-z]*-float64\.so'
+mkdir -p "$folder"
+refused both BULLET_PRECISION project both
+refused definition 'seam::bullet-float32 does not go with BT_USE_DOUBLE_PRECISION' project definition
+refused undefined 'seam::bullet needs BT_USE_DOUBLE_PRECISION' project undefined
+refused double_with_float 'links seam in one precision and Bullet in the other' project double_with_float
+refused float_with_double 'links seam in one precision and Bullet in the other' project float_with_double
+refused float_by_target "$float_refused" project float_by_target
+refused double_by_target "$double_refused" project double_by_target
+refused float_by_library 'TLS reference in .* mismatches non-TLS reference in [^ ]*libmine\.so' project float_by_library
+
+# By pkg-config and by hand, wherever the library stands.
+for precision in bullet bullet-float32; do
+  g++ -std=c++17 -c "$mixed/mixed.cpp" -o "$folder/$precision.o" $(pkg-config --cflags "seam-$precision") || failed=1
+done
+double=$folder/bullet.o float=$folder/bullet-float32.o
+link() { g++ -o "$folder/mixed" "$@"; }
+refused float_as_double 'undefined reference to .seam::this_needs_seam_bullet_float32' link "$float" -L"$libraries" -lseam-bullet -lseam-core
+refused after "$float_refused" link "$double" $(pkg-config --libs seam-bullet bullet)
+refused before "$float_refused" link "$double" $(pkg-config --libs bullet seam-bullet)
+refused double_after "$double_refused" link "$float" $(pkg-config --libs seam-bullet-float32 bullet-float64)
+refused double_before "$double_refused" link "$float" $(pkg-config --libs bullet-float64 seam-bullet-float32)
+for library in LinearMath BulletCollision BulletDynamics; do
+  refused "$library" "$float_refused" link "$double" -L"$libraries" -lseam-bullet -lseam-core "-l$library"
+  refused "$library-float64" "$double_refused" link "$float" "-l$library-float64" -L"$libraries" -lseam-bullet-float32 -lseam-core
+done
+for precision in bullet bullet-float32; do
+  link "$folder/$precision.o" $(pkg-config --libs "seam-$precision") || failed=1
+done
 exit $failed

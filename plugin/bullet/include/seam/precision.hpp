@@ -6,6 +6,8 @@
 
 // Bullet is built in double or in float, and so is seam: seam::bullet, seam::bullet-float32. One program takes one kind.
 // Mixing them would go wrong at run time, so it is stopped here, or by the linker.
+//     undefined reference to `seam::this_needs_seam_bullet...'      compiled for one kind of seam, linked with the other
+//     ...: TLS reference in ... mismatches non-TLS ... in LIBRARY   LIBRARY is, or needs, Bullet of the other kind
 #if defined(SEAM_BULLET_MIXED)
 #error \
     "this target links seam in one precision and Bullet in the other: take seam::bullet with Bullet's -float64 libraries, or seam::bullet-float32 with its float libraries"
@@ -29,9 +31,28 @@ extern const char this_needs_seam_bullet_float32;
 #ifdef BT_USE_DOUBLE_PRECISION
 static_assert(sizeof(btScalar) == 8, "btScalar must be double");
 [[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet;
+#define SEAM_OTHER_SCALAR "f"
 #else
 static_assert(sizeof(btScalar) == 4, "btScalar must be float");
 [[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet_float32;
+#define SEAM_OTHER_SCALAR "d"
+#endif
+
+// Functions that only Bullet's libraries of the other kind define, one of each library. Here they are named as variables
+// of a thread, which nobody reads and nothing need define. As no linker takes one name for both, it takes none of those
+// libraries, by whatever way they come.
+#define SEAM_OTHER_LINEAR_MATH "_ZN20btPolarDecompositionC1E" SEAM_OTHER_SCALAR "j"
+#define SEAM_OTHER_COLLISION "_ZN14btCapsuleShapeC1E" SEAM_OTHER_SCALAR SEAM_OTHER_SCALAR
+#define SEAM_OTHER_DYNAMICS "_ZN11btMultiBody14addJointTorqueEi" SEAM_OTHER_SCALAR
+#if defined(__ELF__)
+#define SEAM_REFUSE(name)                                 \
+  asm(".weak " name "\n.type " name                       \
+      ", STT_TLS\n.pushsection .seam, \"e\", %progbits\n" \
+      ".byte 0\n.reloc .-1, BFD_RELOC_NONE, " name "\n.popsection")
+SEAM_REFUSE(SEAM_OTHER_LINEAR_MATH);
+SEAM_REFUSE(SEAM_OTHER_COLLISION);
+SEAM_REFUSE(SEAM_OTHER_DYNAMICS);
+#undef SEAM_REFUSE
 #endif
 
 }  // namespace seam

@@ -1,0 +1,3 @@
+#include <seam/bullet.hpp>
+
+int main() {}
