@@ -38,6 +38,8 @@ nm -DC --defined-only "$libraries/libseam-files.so" | grep -q 'YamlEntry' &&
 
 headers=$(grep -rl 'BulletInverseDynamics/\|btMultiBody.h\|urdf_model/\|assimp/\|yaml-cpp/' "$prefix/include" || true)
 [ -z "$headers" ] || complain "headers that need what users have not: $headers"
+unguarded=$(grep -rl '<Eigen/' "$prefix/include" | xargs grep -L 'seam/alignment.hpp\|SEAM_EIGEN_BUILD')
+[ -z "$unguarded" ] || complain "hand Eigen's types over, must include seam/alignment.hpp: $unguarded"
 hidden=$(grep -rl '^namespace seam' "$prefix/include" || true)
 [ -z "$hidden" ] || complain "declare what the libraries hide, must say namespace SEAM_API seam: $hidden"
 exit $failed

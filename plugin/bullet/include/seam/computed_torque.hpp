@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 #include <seam/inverse_dynamics.hpp>
 #include <seam/join.hpp>

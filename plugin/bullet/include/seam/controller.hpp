@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <seam/actuator.hpp>
+#include <seam/alignment.hpp>
 #include <seam/computed_torque.hpp>
 #include <seam/export.hpp>
 #include <seam/fading_offset.hpp>

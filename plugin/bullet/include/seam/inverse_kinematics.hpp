@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 #include <seam/kinematics.hpp>
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 #include <seam/inverse_kinematics.hpp>
 #include <seam/join.hpp>

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 #include <seam/robot_model.hpp>
 

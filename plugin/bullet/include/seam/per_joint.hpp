@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 
 namespace SEAM_API seam {

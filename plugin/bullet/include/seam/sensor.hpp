@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 #include <seam/noise.hpp>
 #include <seam/per_joint.hpp>

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <seam/alignment.hpp>
 #include <seam/export.hpp>
 
 namespace SEAM_API seam {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/alignment.hpp>
 #include <seam/basis.hpp>
 #include <seam/compensated_sum.hpp>
 #include <seam/export.hpp>

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <seam/alignment.hpp>
 #include <seam/demonstration.hpp>
 #include <seam/export.hpp>
 

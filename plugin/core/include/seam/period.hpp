@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/alignment.hpp>
 #include <seam/demonstration.hpp>
 #include <seam/export.hpp>
 

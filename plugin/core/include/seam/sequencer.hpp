@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <seam/alignment.hpp>
 #include <seam/compensated_sum.hpp>
 #include <seam/execution.hpp>
 #include <seam/export.hpp>
