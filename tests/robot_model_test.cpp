@@ -58,7 +58,7 @@ std::string shape(const std::string& kind, const std::string& geometry) {
 
 RobotModel read(const std::string& text, const std::vector<std::string>& package_path = {}) {
   const TempFolder folder;
-  return RobotModel::read(folder.write("x.urdf", text), package_path);
+  return RobotModel::read(folder.write("x.urdf", text), {package_path});
 }
 
 /// The message of the refusal, with the test's own folder taken off.
@@ -370,7 +370,7 @@ class MeshNames : public testing::Test {
                     const std::vector<std::string>& package_path = {}) const {
     const std::string file =
         folder_.write("arm/urdf/x.urdf", shape("visual", R"(<mesh filename=")" + name + R"("/>)"));
-    const auto model = RobotModel::read(file, package_path);
+    const auto model = RobotModel::read(file, {package_path});
     return std::filesystem::relative(model.base.visuals[0].mesh, folder_.path("")).string();
   }
 
