@@ -164,8 +164,6 @@ Check check_limits(const RobotModel& model) {
         here + fmt::format("lower and upper limit are both {:g}: it cannot move", joint.lower));
     find_odd(check, joint.effort == 0.0, here + "effort limit 0");
     find_odd(check, joint.speed == 0.0, here + "velocity limit 0");
-    if (joint.lower > 0.0 || joint.upper < 0.0)
-      find_odd(check, !joint.follows(), here + "0, where a robot begins, is beyond its limits");
     if (!joint.follows()) continue;
     const Joint& leader = model.joints[static_cast<std::size_t>(joint.leader)];
     const double ends[] = {joint.multiplier * leader.lower + joint.offset,
@@ -181,6 +179,7 @@ Check check_limits(const RobotModel& model) {
 
 Check check_inertia(const RobotModel& model, const std::vector<BodyFigures>& bodies) {
   Check check{"inertia", Verdict::ok, "", {}};
+  for (const std::string& ignored : model.ignored_inertia) find_odd(check, true, ignored);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Inertial& inertial = model.bodies[i].inertial;
     const BodyFigures& body = bodies[i];
@@ -209,7 +208,7 @@ Check check_inertia(const RobotModel& model, const std::vector<BodyFigures>& bod
 }
 
 Check check_meshes(const RobotModel& model, const MeshCatalogue& meshes) {
-  Check check{"meshes", Verdict::ok, "", model.left_out};
+  Check check{"meshes", Verdict::ok, "", model.missing_meshes};
   int triangles = 0;
   std::size_t read = 0;
   for (const auto& [path, mesh] : meshes.files()) {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "massless.hpp"
+#include "require_inertia.hpp"
 #include "urdf_document.hpp"
 #include "urdf_elements.hpp"
 #include <seam/error.hpp>
@@ -78,6 +78,10 @@ class ModelBuilder {
     const std::string here = where("link", link.name);
     if (link.inertial) {
       body.inertial = body.inertial + X_body_link * inertial_from_urdf(*link.inertial, here);
+      const urdf::Inertial& given = *link.inertial;
+      if (given.mass == 0.0 && (given.ixx != 0.0 || given.iyy != 0.0 || given.izz != 0.0))
+        model_.ignored_inertia.push_back("link \"" + link.name +
+                                         "\": its mass is 0, its inertia not");
     }
     for (const auto& visual : link.visual_array) {
       add_shape(body.visuals, link.name, X_body_link,
@@ -99,7 +103,8 @@ class ModelBuilder {
       shapes.push_back(std::move(shape));
     } catch (const MeshNotFound& missing) {
       if (!leave_out_missing_meshes_) throw;
-      model_.left_out.emplace_back(missing.what());
+      model_.missing_meshes.push_back(
+          std::string(missing.what()).substr(places_.urdf.size() + std::string(": ").size()));
     }
   }
 
@@ -200,7 +205,11 @@ void RobotModel::place_followers(Eigen::Ref<Eigen::VectorXd> q) const noexcept {
 }
 
 Eigen::VectorXd RobotModel::neutral() const {
-  Eigen::VectorXd q = Eigen::VectorXd::Zero(dof());
+  Eigen::VectorXd q(dof());
+  for (int i = 0; i < dof(); ++i) {
+    const Joint& joint = joints[static_cast<std::size_t>(i)];
+    q(i) = std::min(std::max(0.0, joint.lower), joint.upper);
+  }
   place_followers(q);
   return q;
 }

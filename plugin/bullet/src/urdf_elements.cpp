@@ -141,9 +141,10 @@ Inertial inertial_from_urdf(const urdf::Inertial& inertial, const std::string& w
   in_com.inertia << inertial.ixx, inertial.ixy, inertial.ixz,  //
       inertial.ixy, inertial.iyy, inertial.iyz,                //
       inertial.ixz, inertial.iyz, inertial.izz;
-  if (in_com.mass == 0.0 && in_com.inertia.isZero(0.0)) return {};
-  if (!(in_com.mass > 0.0)) throw Error(where, text("mass ", in_com.mass, " kg, must be > 0"));
-  check_principal_moments(in_com.inertia.selfadjointView<Eigen::Lower>().eigenvalues(), where);
+  if (in_com.mass == 0.0) return {};
+  if (!(in_com.mass > 0.0)) throw Error(where, text("mass ", in_com.mass, " kg, must be >= 0"));
+  if (!in_com.inertia.isZero(0.0))
+    check_principal_moments(in_com.inertia.selfadjointView<Eigen::Lower>().eigenvalues(), where);
   return pose_from_urdf(inertial.origin) * in_com;
 }
 

@@ -65,8 +65,8 @@ struct Joint {
   double speed = 0.0;   // [rad/s or m/s]; infinity if continuous and without a limit
   double effort = 0.0;  // [N·m or N]; likewise
 
-  // A follower (URDF's mimic) is a joint like any other, with a torque of its own; it is meant to be
-  // at q = multiplier·q_leader + offset.
+  // A follower (URDF's mimic) is a joint like any other, with a torque of its own; it belongs at
+  // q = multiplier·q_leader + offset.
   int leader = -1;          // joint that it follows, which follows none itself; -1: none
   double multiplier = 1.0;  // [its unit over the leader's]
   double offset = 0.0;      // [rad or m]
@@ -86,7 +86,7 @@ struct Frame {
 /// How a URDF is read.
 struct UrdfSettings {
   std::vector<std::string> package_path;  // folders that hold packages, or are one: looked in first
-  bool leave_out_missing_meshes = false;  // instead of refusing the robot; see RobotModel::left_out
+  bool leave_out_missing_meshes = false;  // instead of refusing the robot
 };
 
 /// A fixed-base robot as plain data, read from a URDF and checked. Links behind fixed joints are
@@ -99,8 +99,10 @@ struct RobotModel {
   std::vector<Joint> joints;  // joint i moves body i
   std::vector<Body> bodies;   // parents before children
   std::vector<Frame> frames;  // one per URDF link, the root link first
-  /// Shapes that were left out because their mesh file is not found: link, name, where it was looked for.
-  std::vector<std::string> left_out;
+
+  // What was left out of the URDF, a line each.
+  std::vector<std::string> missing_meshes;   // link, name, where the file was looked for
+  std::vector<std::string> ignored_inertia;  // of a link whose mass is 0
 
   int dof() const { return static_cast<int>(joints.size()); }  // n
   /// @throws Error  no joint of that name (lists those there are)
@@ -110,24 +112,24 @@ struct RobotModel {
 
   /// Puts every follower where its leader has it. Neither allocates nor throws.
   void place_followers(Eigen::Ref<Eigen::VectorXd> q) const noexcept;
-  /// Joint positions 0, followers where that has them: where a robot begins.
+  /// Where a robot begins: each joint at 0 or the limit next to it, followers where that has them.
   Eigen::VectorXd neutral() const;
 
   /// Reads a URDF tree of revolute, continuous, prismatic and fixed joints.
   ///
   /// A joint with <mimic> follows (see Joint); where it mimics a follower, it follows that one's leader.
   ///
-  /// A moving body may be without mass (the "dummy links" of a wrist) if what is behind it makes up
-  /// for that: the joints' inertia matrix, scaled to a diagonal of ones, must have no eigenvalue below
-  /// 1e-6 in a few hundred positions within the limits, joints at 0, at right angles and at a limit
-  /// among them. Less would leave Bullet's accelerations to rounding.
+  /// A link without inertial, or with one of mass 0, has none (as in Bullet; other readers take the former for 1 kg); one
+  /// of some mass with an inertia of zeros is a point. Where a joint moves such links alone (the "dummy links" of a
+  /// wrist), what is behind them must make up for it: the joints' inertia matrix, scaled to a diagonal of ones, must
+  /// have no eigenvalue below 1e-6 in a few hundred positions within the limits, joints at 0, at right angles and at a
+  /// limit among them. Less would leave Bullet's accelerations to rounding.
   ///
   /// Refused, with file, element and value: what urdfdom refuses or complains of (it drops a link's
   /// unknown shapes, for one, and calls that success); xacro that is not expanded; joints that are
   /// floating or planar; a joint that mimics itself, in a ring, or none that moves; links that are not
-  /// in one tree; a mass ≤ 0 (but an inertial of nothing but zeros counts as none: other readers take
-  /// a link without one for 1 kg); an inertia that is not positive definite or breaks the triangle
-  /// rule; a moving body whose mass is missed; a zero axis; lower > upper; negative or missing effort
+  /// in one tree; a mass < 0; an inertia that is neither zeros nor positive definite, or breaks the triangle
+  /// rule; a moving body whose mass or inertia is missed; a zero axis; lower > upper; negative or missing effort
   /// or speed; shapes of size ≤ 0; a mesh scale of 0; a mesh file that is not found, unless the
   /// settings leave it out. Values that are not finite never pass urdfdom. A continuous joint has no
   /// position limits and may go without <limit>. Not read: <dynamics>, <safety_controller>,

@@ -1,7 +1,8 @@
-#include "massless.hpp"
+#include "require_inertia.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -37,8 +38,10 @@ double anywhere(const Joint& joint, std::mt19937_64& random) {
   return std::min(std::max(choices[random() % 8], low), high);
 }
 
-bool is_massless(const Body& body) {
-  return !(body.inertial.mass > 0.0);
+// Has no mass, or is a point or a line.
+bool lacks_inertia(const Body& body) {
+  const Eigen::Matrix3d& inertia = body.inertial.inertia;
+  return inertia.selfadjointView<Eigen::Lower>().eigenvalues()(0) <= 1e-12 * inertia.trace();
 }
 
 // Whether anything that the joint moves has mass.
@@ -48,16 +51,31 @@ bool moves_mass(const RobotModel& model, std::size_t joint) {
   for (std::size_t i = joint; i < model.joints.size(); ++i) {
     const int parent = model.joints[i].parent;
     if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = true;
-    if (moved[i] && !is_massless(model.bodies[i])) return true;
+    if (moved[i] && model.bodies[i].inertial.mass > 0.0) return true;
   }
   return false;
 }
 
-[[noreturn]] void refuse(const RobotModel& model, std::size_t massless, const std::string& path,
+// The joints' motion that meets least inertia, for a diagonal of ones.
+struct Weakest {
+  double share;
+  Eigen::VectorXd motion;
+};
+
+Weakest weakest(const Eigen::MatrixXd& M) {
+  const Eigen::VectorXd scale =
+      M.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * M *
+                                                              scale.asDiagonal());
+  return {solver.eigenvalues()(0), solver.eigenvectors().col(0).cwiseAbs()};
+}
+
+[[noreturn]] void refuse(const RobotModel& model, std::size_t body, const std::string& path,
                          const std::string& why) {
-  throw Error(path + ": link \"" + model.bodies[massless].link + "\"",
-              "has no mass, nor has any link fixed to it, but joint \"" +
-                  model.joints[massless].name + "\" moves it" + why + ": must be > 0");
+  const char* const what = model.bodies[body].inertial.mass > 0.0 ? "inertia" : "mass";
+  throw Error(path + ": link \"" + model.bodies[body].link + "\"",
+              std::string("has no ") + what + ", nor has any link fixed to it, but joint \"" +
+                  model.joints[body].name + "\" moves it" + why + ": must be > 0");
 }
 
 }  // namespace
@@ -87,27 +105,23 @@ Eigen::MatrixXd inertia_matrix(const RobotModel& model, const Eigen::VectorXd& q
 }
 
 void require_inertia(const RobotModel& model, const std::string& path) {
-  std::vector<std::size_t> massless;
+  std::vector<std::size_t> suspects;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    if (is_massless(model.bodies[i])) massless.push_back(i);
-  if (massless.empty()) return;
-  for (const std::size_t i : massless)
+    if (lacks_inertia(model.bodies[i])) suspects.push_back(i);
+  if (suspects.empty()) return;
+  for (const std::size_t i : suspects)
     if (!moves_mass(model, i)) refuse(model, i, path, "");
   std::mt19937_64 random(1);
   Eigen::VectorXd q(model.dof());
   for (int k = 0; k < positions; ++k) {
     for (int i = 0; i < model.dof(); ++i)
       q(i) = anywhere(model.joints[static_cast<std::size_t>(i)], random);
-    const Eigen::MatrixXd M = inertia_matrix(model, q);
-    const Eigen::VectorXd scale = M.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> share(scale.asDiagonal() * M *
-                                                               scale.asDiagonal());
-    if (share.eigenvalues()(0) >= least_share) continue;
-    const Eigen::VectorXd moving = share.eigenvectors().col(0).cwiseAbs();
-    const auto suspect =
-        *std::max_element(massless.begin(), massless.end(), [&](std::size_t a, std::size_t b) {
-          return moving(static_cast<Eigen::Index>(a)) < moving(static_cast<Eigen::Index>(b));
-        });
+    const auto [share, motion] = weakest(inertia_matrix(model, q));
+    if (share >= least_share) continue;
+    std::size_t suspect = suspects.front();
+    for (const std::size_t i : suspects)
+      if (motion(static_cast<Eigen::Index>(i)) > motion(static_cast<Eigen::Index>(suspect)))
+        suspect = i;
     refuse(model, suspect, path, ", and in some position nothing behind it resists");
   }
 }
