@@ -86,11 +86,15 @@ BodyFigures body_figures(const Body& body, MeshCatalogue& meshes) {
   figures.gyration = mass > 0.0 ? (figures.moments / mass).cwiseMax(0.0).cwiseSqrt().eval()
                                 : Eigen::Vector3d::Zero().eval();
   double volume = 0.0;
-  for (const Geometry& shape : body.collisions.empty() ? body.visuals : body.collisions) {
-    const Extent extent = extent_of(shape, meshes);
-    if (extent.box.isEmpty()) continue;
-    figures.box.extend(extent.box.transformed(shape.X_body_shape));
-    volume += extent.volume;
+  for (const auto* shapes : {&body.visuals, &body.collisions}) {
+    double together = 0.0;
+    for (const Geometry& shape : *shapes) {
+      const Extent extent = extent_of(shape, meshes);
+      if (extent.box.isEmpty()) continue;
+      figures.box.extend(extent.box.transformed(shape.X_body_shape));
+      together += extent.volume;
+    }
+    volume = std::max(volume, together);
   }
   figures.reach = farthest_corner(figures.box, body.inertial.com);
   if (volume > 0.0) figures.density = mass / volume;

@@ -38,7 +38,7 @@ struct BodyFigures {
   double density = 0.0;      // [kg/m³] mass over the volume of its shapes; 0 if it has none
 };
 
-/// Of the shapes that collide, or of those that are seen where none collide.
+/// Of the shapes that are seen and those that collide; the volume is that of the ones or the others, whichever is larger.
 BodyFigures body_figures(const Body& body, MeshCatalogue& meshes);
 
 }  // namespace seam

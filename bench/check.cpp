@@ -143,12 +143,6 @@ void find_reach(const RobotModel& model, const CheckSettings& settings, RobotChe
   }
 }
 
-void read_meshes(const Body& body, MeshCatalogue& meshes) {
-  for (const auto* shapes : {&body.visuals, &body.collisions})
-    for (const Geometry& shape : *shapes)
-      if (shape.type == Geometry::Type::mesh) meshes[shape.mesh];
-}
-
 void find_odd(Check& check, bool is_odd, const std::string& text) {
   if (!is_odd) return;
   check.verdict = std::max(check.verdict, Verdict::warning);
@@ -267,11 +261,8 @@ Verdict RobotCheck::verdict() const {
 
 RobotCheck check_robot(const RobotModel& robot, const CheckSettings& settings) {
   RobotCheck check;
-  read_meshes(robot.base, check.meshes);
-  for (const Body& body : robot.bodies) {
-    read_meshes(body, check.meshes);
-    check.bodies.push_back(body_figures(body, check.meshes));
-  }
+  body_figures(robot.base, check.meshes);  // reads its meshes
+  for (const Body& body : robot.bodies) check.bodies.push_back(body_figures(body, check.meshes));
   check.acceleration_error = acceleration_error(robot, settings);
   check.holding = holding_torque(robot, settings);
   find_reach(robot, settings, check);

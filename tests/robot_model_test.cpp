@@ -205,10 +205,11 @@ const Refused refusals[] = {
      "x.urdf: multiplier value (nan) is not a valid float; Could not parse mimic element for joint "
      " "
      "[j]; joint xml is not initialized correctly"},
-    {"FixedMimic",
-     robot(link("a") + link("b") + link("c") + joint("i", "revolute", "a", "b") +
-           joint("j", "fixed", "b", "c", R"(<mimic joint="i"/>)")),
-     R"(x.urdf: joint "j": is fixed, must not mimic joint "i")"},
+    {"MimicOfAFixedJoint",
+     robot(link("a") + link("b") + link("c") +
+           joint("i", "fixed", "a", "b", R"(<mimic joint="j"/>)") +
+           joint("j", "revolute", "b", "c", std::string(limits) + R"(<mimic joint="i"/>)")),
+     R"(x.urdf: joint "j": mimics joint "i", must be one that moves)"},
     {"AxisZero", one_joint(std::string(limits) + R"(<axis xyz="0 0 0"/>)"),
      R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
     {"AxisWithoutXyz", one_joint(std::string(limits) + "<axis/>"),
@@ -497,6 +498,9 @@ TEST_F(MeshNames, MayBeFileUris) {
 }
 TEST_F(MeshNames, FindAPackageAboveTheUrdf) {
   EXPECT_EQ(found("package://arm/meshes/m.obj"), "arm/meshes/m.obj");
+}
+TEST_F(MeshNames, MayHaveASlashTooMany) {
+  EXPECT_EQ(found("package:///arm/meshes/m.obj"), "arm/meshes/m.obj");
 }
 TEST_F(MeshNames, FindAPackageThatAFolderAboveTheUrdfHolds) {
   folder_.write("other/m.obj", "beside");

@@ -53,10 +53,15 @@ std::vector<fs::path> package_candidates(const fs::path& name, const MeshPlaces&
 const std::string package = "package://";
 const std::string file = "file://";
 
+/// NAME/… of package://NAME/…, which some write with a slash too many.
+fs::path in_package(const std::string& name) {
+  return fs::path(name.substr(package.size())).relative_path();
+}
+
 std::vector<fs::path> mesh_candidates(const std::string& name, const MeshPlaces& places) {
   if (name.empty()) return {};
   if (starts_with(name, package)) {
-    const fs::path rest = name.substr(package.size());
+    const fs::path rest = in_package(name);
     return rest.empty() ? std::vector<fs::path>{} : package_candidates(rest, places);
   }
   if (starts_with(name, file)) return {folder_of(places) / name.substr(file.size())};
@@ -66,7 +71,7 @@ std::vector<fs::path> mesh_candidates(const std::string& name, const MeshPlaces&
 
 std::string nowhere_to_look(const std::string& name) {
   if (!starts_with(name, package)) return "must be package://, file:// or a path";
-  const fs::path rest = name.substr(package.size());
+  const fs::path rest = in_package(name);
   return "no folder to look in: give one that is or holds package \"" +
          (rest.empty() ? std::string() : rest.begin()->string()) +
          "\" in package_path or ROS_PACKAGE_PATH";

@@ -14,7 +14,7 @@ namespace seam {
 namespace {
 
 constexpr int positions = 300;
-constexpr double least_share = 1e-6;
+constexpr double least_share = 1e-5;
 
 // The joint's column of a body's Jacobian: velocity of its centre of mass, and of its turning.
 struct Column {

@@ -55,7 +55,7 @@ class ModelBuilder {
       const urdf::Link& child = *document_.model->getLink(joint->child_link_name);
       const Eigen::Isometry3d X =
           X_body_link * pose_from_urdf(joint->parent_to_joint_origin_transform);
-      if (joint->type == urdf::Joint::FIXED && !joint->mimic) {
+      if (joint->type == urdf::Joint::FIXED) {
         add_link(child, index, X);
       } else {
         add_joint(*joint, child, index, X);

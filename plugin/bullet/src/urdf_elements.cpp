@@ -68,8 +68,6 @@ Joint::Type joint_type(const urdf::Joint& joint, const std::string& where) {
       throw Error(where, text("is a floating ", refusal));
     case urdf::Joint::PLANAR:
       throw Error(where, text("is a planar ", refusal));
-    case urdf::Joint::FIXED:
-      throw Error(where, text("is fixed, must not mimic joint \"", joint.mimic->joint_name, "\""));
     default:
       throw Error(where, text("is an unknown ", refusal));
   }

@@ -122,12 +122,12 @@ struct RobotModel {
   /// A link without inertial, or with one of mass 0, has none (as in Bullet; other readers take the former for 1 kg); one
   /// of some mass with an inertia of zeros is a point. Where a joint moves such links alone (the "dummy links" of a
   /// wrist), what is behind them must make up for it: the joints' inertia matrix, scaled to a diagonal of ones, must
-  /// have no eigenvalue below 1e-6 in a few hundred positions within the limits, joints at 0, at right angles and at a
-  /// limit among them. Less would leave Bullet's accelerations to rounding.
+  /// have no eigenvalue below 1e-5 in a few hundred positions within the limits, joints at 0, at right angles and at a
+  /// limit among them. With less, rounding shows in Bullet's accelerations (1e-9 rad/s²).
   ///
   /// Refused, with file, element and value: what urdfdom refuses or complains of (it drops a link's
   /// unknown shapes, for one, and calls that success); xacro that is not expanded; joints that are
-  /// floating or planar; a joint that mimics itself, in a ring, or none that moves; links that are not
+  /// floating or planar; a joint that mimics itself, in a ring, or one that is not there or fixed; links that are not
   /// in one tree; a mass < 0; an inertia that is neither zeros nor positive definite, or breaks the triangle
   /// rule; a moving body whose mass or inertia is missed; a zero axis; lower > upper; negative or missing effort
   /// or speed; shapes of size ≤ 0; a mesh scale of 0; a mesh file that is not found, unless the
