@@ -207,9 +207,8 @@ class Gripper : public testing::Test {
                fold_ = model_.joint("fold");
 
   Primitive grip_to(double goal) const {
-    Primitive primitive = learn(test::minimum_jerk(0.03, 0.5));
+    Primitive primitive = learn(test::minimum_jerk(goal, 0.5));
     primitive.coordinates = {"grip"};
-    primitive.goal(0) = goal;
     return primitive;
   }
 };
@@ -245,7 +244,43 @@ TEST_F(Gripper, FollowersHoldWhereNothingMovesTheirLeader) {
   EXPECT_GT(controller.last_tick().q(0), 0.01);
 }
 
-TEST_F(Gripper, FollowTheirLeaderWhileTheToolMoves) {
+TEST_F(Gripper, FollowersThatAreElsewhereComeToTheirPlaceSmoothly) {
+  World world;
+  Robot robot(model_, *world, standing(base_poses()[2]));
+  VectorXd q = model_.neutral();
+  q(fold_) = -0.05;
+  robot.reset(q, VectorXd::Zero(model_.dof()));
+  Controller controller(robot, Sequence().then(grip_to(0.03)), Join::dmp3);
+  Plugin plugin(*world);
+  plugin.add(controller);
+  double hardest = 0.0;
+  for (int k = 0; k < 1200; ++k) {
+    world->stepSimulation(btScalar(1e-3), 0);
+    EXPECT_NEAR(controller.last_tick().q(fold_), controller.last_tick().reference.position(fold_),
+                1e-9);
+    hardest = std::max(hardest, std::abs(controller.last_tick().reference.acceleration(fold_)));
+  }
+  EXPECT_LT(hardest, 20.0);
+  const VectorXd& now = controller.last_tick().q;
+  EXPECT_NEAR(now(fold_), -15.0 * now(grip_) + 0.2, 1e-9);
+}
+
+TEST_F(Gripper, StopsAtAGoalThatTakesAFollowerBeyondItsLimits) {
+  model_.joints[static_cast<std::size_t>(fold_)].lower = -0.1;
+  World world;
+  Robot robot(model_, *world, standing(base_poses()[0]));
+  Controller controller(robot, Sequence().then(grip_to(0.01)), Join::dmp3);
+  Plugin plugin(*world);
+  plugin.add(controller);
+  for (int k = 0; k < 100; ++k) world->stepSimulation(btScalar(1e-3), 0);
+  ASSERT_EQ(controller.status(), Controller::Status::following) << controller.what_happened();
+  ASSERT_TRUE(controller.sequencer().set_goal(VectorXd::Constant(1, 0.03)));
+  world->stepSimulation(btScalar(1e-3), 0);
+  EXPECT_EQ(controller.status(), Controller::Status::stopped);
+  EXPECT_EQ(controller.incident().joint, static_cast<int>(fold_)) << controller.what_happened();
+}
+
+TEST_F(Gripper, FollowersFollowWhileTheToolMoves) {
   World world;
   Robot robot(model_, *world, standing(base_poses()[1]));
   VectorXd q(model_.dof());

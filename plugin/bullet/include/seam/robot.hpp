@@ -57,7 +57,7 @@ class Robot {
   /// Positions [rad or m] and velocities [rad/s or m/s] of as many joints, from the first on, as there is room for.
   void state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
   /// Puts the arm at (q, q̇), which is RobotModel::neutral() to begin with. Followers are put where q says, not where
-  /// their leaders have them: see RobotModel::place_followers. Colliders and their bounding boxes
+  /// their leaders have them (see RobotModel::place_followers). Colliders and their bounding boxes
   /// follow. Forces and torques that wait for the next step stay.
   void reset(const Eigen::Ref<const Eigen::VectorXd>& q,
              const Eigen::Ref<const Eigen::VectorXd>& qd);
