@@ -47,7 +47,7 @@ class JointReference {
 /// The followers among a robot's joints, and where a reference has them.
 class Followers {
  public:
-  explicit Followers(const RobotModel& robot);
+  explicit Followers(const RobotModel& robot);  // copies what it needs
   /// Position by multiplier and offset, velocity and acceleration by the multiplier. Neither allocates nor throws.
   void place(Sample& joints) const noexcept;
 

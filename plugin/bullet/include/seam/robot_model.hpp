@@ -71,7 +71,7 @@ struct Joint {
   double multiplier = 1.0;  // [its unit over the leader's]
   double offset = 0.0;      // [rad or m]
 
-  bool follows() const { return leader >= 0; }
+  bool follows() const { return leader >= 0; }  // a leader
   /// Pose of the body in its parent at q [rad or m].
   Eigen::Isometry3d X_parent_body_at(double q) const;
 };
