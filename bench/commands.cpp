@@ -1,6 +1,7 @@
 #include "bench/commands.hpp"
 
 #include "bench/bench_command.hpp"
+#include "bench/check_command.hpp"
 #include "bench/experiment_command.hpp"
 #include "bench/learn_command.hpp"
 #include "bench/metrics_command.hpp"
@@ -20,6 +21,7 @@ void add_commands(CLI::App& app) {
   add_experiment_command(app);
   add_render_command(app);
   add_metrics_command(app);
+  add_check_command(app);
   add_report_command(app);
 }
 

@@ -23,17 +23,19 @@ void read_robot(const YamlEntry& entry, Scene& scene) {
   entry.only({"urdf", "start"});
   const YamlEntry urdf = entry.at("urdf");
   scene.robot = at_key(urdf, [&] { return RobotModel::read(urdf.path()); });
-  scene.start.setZero(scene.robot.dof());
+  scene.start = scene.robot.neutral();
   const auto start = entry.find("start");
   if (!start) return;
   for (const auto& [name, position] : start->entries()) {
     const int i = at_key(position, [&, joint = name] { return scene.robot.joint(joint); });
     const Joint& joint = scene.robot.joints[static_cast<std::size_t>(i)];
+    if (joint.follows()) position.fail("follows another joint, which must be set instead");
     scene.start(i) = position.number();
     if (scene.start(i) < joint.lower || scene.start(i) > joint.upper)
       position.fail(position.text() + ", must be in " + std::to_string(joint.lower) + " to " +
                     std::to_string(joint.upper));
   }
+  scene.robot.place_followers(scene.start);
 }
 
 std::unique_ptr<JointReference> reference(const Scene& scene, const Primitive& primitive) {

@@ -65,6 +65,17 @@ TEST(Mesh, OfABlockHasTwelveTrianglesAndSharpEdges) {
   }
 }
 
+TEST(Mesh, MakesNormalsWhereAFileHasThemOfLengthZero) {
+  const TempFolder folder;
+  const auto meshes = seam::load_mesh(folder.write(
+      "zero.stl",
+      "solid s\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\nendsolid s\n"));
+  ASSERT_EQ(meshes.at(0).normals.cols(), 3);
+  for (const auto& normal : meshes[0].normals.colwise())
+    EXPECT_LE((normal - Vector3f::UnitZ()).norm(), 1e-6F);
+}
+
 TEST(Mesh, TrianglesTurnAnticlockwiseSeenFromOutside) {
   const seam::Mesh block = seam::load_mesh(SEAM_TEST_DATA "/block.obj").at(0);
   for (const auto& triangle : block.triangles.colwise()) {

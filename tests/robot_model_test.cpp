@@ -40,6 +40,14 @@ std::string one_joint(const std::string& content, const std::string& type = "rev
   return robot(link("a") + link("b") + joint("j", type, "a", "b", content));
 }
 
+/// A chain of links `a` to `d` with the joints `i`, `j` and `k`, of which each may have more to it.
+std::string three_joints(const std::string& i, const std::string& j, const std::string& k) {
+  const std::string limit = R"(<limit lower="-1" upper="1" effort="5" velocity="2"/>)";
+  return robot(
+      link("a") + link("b") + link("c") + link("d") + joint("i", "revolute", "a", "b", limit + i) +
+      joint("j", "revolute", "b", "c", limit + j) + joint("k", "revolute", "c", "d", limit + k));
+}
+
 std::string inertial_element(const std::string& mass_value, const std::string& ixx,
                              const std::string& iyy, const std::string& izz) {
   return R"(<inertial><mass value=")" + mass_value + R"("/><inertia ixx=")" + ixx +
@@ -58,7 +66,7 @@ std::string shape(const std::string& kind, const std::string& geometry) {
 
 RobotModel read(const std::string& text, const std::vector<std::string>& package_path = {}) {
   const TempFolder folder;
-  return RobotModel::read(folder.write("x.urdf", text), package_path);
+  return RobotModel::read(folder.write("x.urdf", text), {package_path});
 }
 
 /// The message of the refusal, with the test's own folder taken off.
@@ -104,6 +112,10 @@ const Refused refusals[] = {
     {"LinkTwice", robot(link("a") + link("a")), "x.urdf: link 'a' is not unique."},
     {"TwoRoots", robot(link("a") + link("b")),
      "x.urdf: Failed to find root link: Two root links found: [a] and [b]"},
+    {"Xacro",
+     "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>\n<link name='a'/>\n"
+     "<xacro:include filename='x'/>\n</robot>",
+     "x.urdf:3: <xacro:include> is xacro, must be expanded first: xacro in.xacro > out.urdf"},
     {"JointToNowhere", robot(link("a") + joint("j", "fixed", "a", "b")),
      "x.urdf: Failed to build tree: child link [b] of joint [j] not found"},
     {"NoRootElement", "<!-- nothing -->", "x.urdf: root element is <>, must be <robot>"},
@@ -122,8 +134,8 @@ const Refused refusals[] = {
      "x.urdf: Failed to build tree: Joint [j] is missing a parent and/or child link "
      "specification."},
 
-    {"MassNegative", inertial("-1", "1", "1", "1"), R"(x.urdf: link "a": mass -1 kg, must be > 0)"},
-    {"MassZero", inertial("0", "1", "1", "1"), R"(x.urdf: link "a": mass 0 kg, must be > 0)"},
+    {"MassNegative", inertial("-1", "1", "1", "1"),
+     R"(x.urdf: link "a": mass -1 kg, must be >= 0)"},
     {"MassNan", inertial("nan", "1", "1", "1"),
      "x.urdf: Inertial: mass [nan] is not a float; Could not parse inertial element for Link [a]"},
     {"MassInfinite", inertial("inf", "1", "1", "1"),
@@ -159,16 +171,45 @@ const Refused refusals[] = {
      R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it: )"
      "must be > 0"},
 
+    {"TwoJointsOnOneAxisWithoutMassBetween",
+     robot(link("a") + link("b", "") + link("c") + joint("j", "revolute", "a", "b") +
+           joint("k", "revolute", "b", "c")),
+     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it, and in )"
+     "some position nothing behind it resists: must be > 0"},
+    // Roll, pitch, roll: where the pitch is 0 both rolls turn the last link alone.
+    {"GimbalWithoutMass",
+     robot(link("a") + link("b", "") + link("c", "") + link("d") +
+           joint("j", "revolute", "a", "b") +
+           joint("k", "revolute", "b", "c", std::string(limits) + R"(<axis xyz="0 1 0"/>)") +
+           joint("l", "revolute", "c", "d")),
+     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it, and in )"
+     "some position nothing behind it resists: must be > 0"},
+
     {"Floating", one_joint("", "floating"),
      R"(x.urdf: joint "j": is a floating joint, must be revolute, continuous, prismatic or fixed)"},
     {"Planar", one_joint("", "planar"),
      R"(x.urdf: joint "j": is a planar joint, must be revolute, continuous, prismatic or fixed)"},
     {"Helical", one_joint("", "helical"),
      "x.urdf: Joint [j] has no known type [helical]; joint xml is not initialized correctly"},
-    {"Mimic",
-     robot(link("a") + link("b") + link("c") + joint("i", "revolute", "a", "b") +
+    {"MimicOfItself", one_joint(std::string(limits) + R"(<mimic joint="j"/>)"),
+     R"(x.urdf: joint "j": mimics itself, must lead to another joint)"},
+    {"MimicsInARing",
+     three_joints(R"(<mimic joint="k"/>)", R"(<mimic joint="i"/>)", R"(<mimic joint="j"/>)"),
+     R"(x.urdf: joint "i": mimics itself, must lead to another joint)"},
+    {"MimicOfNone", one_joint(std::string(limits) + R"(<mimic joint="i"/>)"),
+     R"(x.urdf: joint "j": mimics joint "i", must be one that moves)"},
+    {"MimicOfNoName", one_joint(std::string(limits) + "<mimic/>"),
+     "x.urdf: joint mimic: no mimic joint specified; Could not parse mimic element for joint  [j]; "
+     "joint xml is not initialized correctly"},
+    {"MimicByNoNumber", one_joint(std::string(limits) + R"(<mimic joint="j" multiplier="nan"/>)"),
+     "x.urdf: multiplier value (nan) is not a valid float; Could not parse mimic element for joint "
+     " "
+     "[j]; joint xml is not initialized correctly"},
+    {"MimicOfAFixedJoint",
+     robot(link("a") + link("b") + link("c") +
+           joint("i", "fixed", "a", "b", R"(<mimic joint="j"/>)") +
            joint("j", "revolute", "b", "c", std::string(limits) + R"(<mimic joint="i"/>)")),
-     R"(x.urdf: joint "j": mimics joint "i", must move by itself)"},
+     R"(x.urdf: joint "j": mimics joint "i", must be one that moves)"},
     {"AxisZero", one_joint(std::string(limits) + R"(<axis xyz="0 0 0"/>)"),
      R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
     {"AxisWithoutXyz", one_joint(std::string(limits) + "<axis/>"),
@@ -202,9 +243,11 @@ const Refused refusals[] = {
     {"MeshMissing", shape("visual", R"(<mesh filename="no.obj"/>)"),
      R"(x.urdf: link "a": visual: mesh "no.obj" not found, looked for no.obj)"},
     {"MeshWithoutPackage", shape("visual", R"(<mesh filename="package://none/no.obj"/>)"),
-     R"(x.urdf: link "a": visual: mesh "package://none/no.obj" not found, no folder to look in)"},
+     R"(x.urdf: link "a": visual: mesh "package://none/no.obj" not found, no folder to look in: give one that is or holds )"
+     R"(package "none" in package_path or ROS_PACKAGE_PATH)"},
     {"MeshFromTheNet", shape("visual", R"(<mesh filename="http://x/no.obj"/>)"),
-     R"(x.urdf: link "a": visual: mesh "http://x/no.obj" not found, no folder to look in)"},
+     R"(x.urdf: link "a": visual: mesh "http://x/no.obj" not found, must be package://, file:// or )"
+     "a path"},
     {"MeshIsAFolder", shape("visual", R"(<mesh filename="."/>)"),
      R"(x.urdf: link "a": visual: mesh "." not found, looked for )"},
     {"MeshWithoutScale", shape("visual", R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),
@@ -307,12 +350,32 @@ TEST(RobotModel, TurnsInertiaGivenInARotatedFrame) {
             1e-15);
 }
 
-TEST(RobotModel, TakesAnInertialOfZerosForNone) {
-  EXPECT_EQ(read(inertial("0", "0", "0", "0")).base.inertial.mass, 0.0);
-  EXPECT_EQ(refusal(robot(link("a") + link("b", inertial_element("0", "0", "0", "0")) +
+TEST(RobotModel, TakesAnInertialWithoutMassForNone) {
+  const auto zeros = read(inertial("0", "0", "0", "0"));
+  EXPECT_EQ(zeros.base.inertial.mass, 0.0);
+  EXPECT_TRUE(zeros.ignored_inertia.empty());
+  const auto some = read(inertial("0", "1", "1", "1"));
+  EXPECT_TRUE(some.base.inertial.inertia.isZero(0.0));
+  ASSERT_EQ(some.ignored_inertia.size(), 1U);
+  EXPECT_EQ(some.ignored_inertia[0], R"(link "a": its mass is 0, its inertia not)");
+  EXPECT_EQ(refusal(robot(link("a") + link("b", inertial_element("0", "1", "1", "1")) +
                           joint("j", "revolute", "a", "b"))),
             R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves )"
             "it: must be > 0");
+}
+
+// A point of 2 kg, 1 m away from the axis.
+TEST(RobotModel, TakesAMassWithoutInertiaForAPoint) {
+  const std::string point = R"(<inertial><origin xyz="0 1 0"/><mass value="2"/>
+    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>)";
+  const auto model = read(robot(link("a") + link("b", point) + joint("j", "revolute", "a", "b")));
+  EXPECT_EQ(model.bodies[0].inertial.about_origin()(0, 0), 2.0);
+  EXPECT_EQ(
+      refusal(
+          robot(link("a") + link("b", point) +
+                joint("j", "revolute", "a", "b", std::string(limits) + R"(<axis xyz="0 1 0"/>)"))),
+      R"(x.urdf: link "b": has no inertia, nor has any link fixed to it, but joint "j" moves it, )"
+      "and in some position nothing behind it resists: must be > 0");
 }
 
 TEST(RobotModel, AcceptsPlatesAndRods) {
@@ -330,6 +393,56 @@ TEST(RobotModel, LeavesAContinuousJointWithoutLimits) {
   EXPECT_EQ(limited.upper, infinity);
   EXPECT_EQ(limited.speed, 2.0);
   EXPECT_EQ(limited.effort, 5.0);
+}
+
+TEST(RobotModel, TakesALinkWithoutMassWhereWhatIsBehindItResists) {
+  const auto model =
+      read(robot(link("a") + link("b", "") + link("c") + joint("j", "revolute", "a", "b") +
+                 joint("k", "revolute", "b", "c", std::string(limits) + R"(<axis xyz="0 1 0"/>)")));
+  EXPECT_EQ(model.dof(), 2);
+  EXPECT_EQ(model.bodies[0].inertial.mass, 0.0);
+}
+
+TEST(RobotModel, LetsAMimicOfAMimicFollowTheFirst) {
+  const auto model = read(three_joints(R"(<mimic joint="j" multiplier="3" offset="0.5"/>)",
+                                       R"(<mimic joint="k" multiplier="-2" offset="0.25"/>)", ""));
+  EXPECT_EQ(model.joints[0].leader, 2);
+  EXPECT_EQ(model.joints[0].multiplier, -6.0);
+  EXPECT_EQ(model.joints[0].offset, 3.0 * 0.25 + 0.5);
+  EXPECT_EQ(model.joints[1].leader, 2);
+  EXPECT_FALSE(model.joints[2].follows());
+  EXPECT_EQ(model.neutral(), Vector3d(1.25, 0.25, 0.0));
+  Eigen::VectorXd q = Vector3d(7.0, 7.0, 0.5);
+  model.place_followers(q);
+  EXPECT_EQ(q, Vector3d(-1.75, -0.75, 0.5));
+}
+
+TEST(RobotModel, BeginsWithinItsLimits) {
+  const auto model = read(one_joint(R"(<limit lower="-2" upper="-0.5" effort="5" velocity="2"/>)"));
+  EXPECT_EQ(model.neutral()(0), -0.5);
+}
+
+TEST(RobotModel, TakesMultiplierOneAndNoOffsetWhereAMimicNamesNone) {
+  const auto model = read(three_joints("", R"(<mimic joint="i"/>)", ""));
+  EXPECT_EQ(model.joints[1].multiplier, 1.0);
+  EXPECT_EQ(model.joints[1].offset, 0.0);
+}
+
+TEST(RobotModel, LeavesMissingMeshesOutWhereItIsTold) {
+  const TempFolder folder;
+  seam::UrdfSettings lenient;
+  lenient.leave_out_missing_meshes = true;
+  const std::string file = folder.write(
+      "x.urdf",
+      robot(link("a",
+                 R"(<visual><geometry><mesh filename="package://none/no.obj"/></geometry></visual>)"
+                 R"(<visual><geometry><sphere radius="1"/></geometry></visual>)")));
+  const auto model = RobotModel::read(file, lenient);
+  EXPECT_EQ(model.base.visuals.size(), 1U);
+  ASSERT_EQ(model.missing_meshes.size(), 1U);
+  EXPECT_EQ(
+      model.missing_meshes[0].find(R"(link "a": visual: mesh "package://none/no.obj" not found)"),
+      0U);
 }
 
 TEST(RobotModel, MakesAxesUnitAndTakesUrdfsDefault) {
@@ -370,7 +483,7 @@ class MeshNames : public testing::Test {
                     const std::vector<std::string>& package_path = {}) const {
     const std::string file =
         folder_.write("arm/urdf/x.urdf", shape("visual", R"(<mesh filename=")" + name + R"("/>)"));
-    const auto model = RobotModel::read(file, package_path);
+    const auto model = RobotModel::read(file, {package_path});
     return std::filesystem::relative(model.base.visuals[0].mesh, folder_.path("")).string();
   }
 
@@ -385,6 +498,13 @@ TEST_F(MeshNames, MayBeFileUris) {
 }
 TEST_F(MeshNames, FindAPackageAboveTheUrdf) {
   EXPECT_EQ(found("package://arm/meshes/m.obj"), "arm/meshes/m.obj");
+}
+TEST_F(MeshNames, MayHaveASlashTooMany) {
+  EXPECT_EQ(found("package:///arm/meshes/m.obj"), "arm/meshes/m.obj");
+}
+TEST_F(MeshNames, FindAPackageThatAFolderAboveTheUrdfHolds) {
+  folder_.write("other/m.obj", "beside");
+  EXPECT_EQ(found("package://other/m.obj"), "other/m.obj");
 }
 TEST_F(MeshNames, FindAPackageInTheGivenFolders) {
   EXPECT_EQ(found("package://tool/m.obj", {folder_.path("packages")}), "packages/tool/m.obj");

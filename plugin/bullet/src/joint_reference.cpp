@@ -9,6 +9,7 @@ namespace seam {
 namespace {
 
 constexpr double same_posture = 1e-6;  // [rad or m]
+constexpr double rounding = 1e-9;      // [rad or m]
 
 int tool_dimensions(const std::vector<std::string>& coordinates) {
   if (coordinates == std::vector<std::string>{"x", "y", "z"}) return 3;
@@ -21,11 +22,40 @@ PostureSettings resting_at(PostureSettings posture, const Eigen::VectorXd& q) {
   return posture;
 }
 
+void require_within_limits(const Joint& joint, double goal, double slack, const std::string& how) {
+  if (goal >= joint.lower - slack && goal <= joint.upper + slack) return;
+  throw Error("joint \"" + joint.name + "\"", "goal " + std::to_string(goal) + how +
+                                                  ", must be in " + std::to_string(joint.lower) +
+                                                  " to " + std::to_string(joint.upper));
+}
+
 }  // namespace
 
+Followers::Followers(const RobotModel& robot) {
+  for (int i = 0; i < robot.dof(); ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    if (joint.follows()) followers_.push_back({i, joint.leader, joint.multiplier, joint.offset});
+  }
+}
+
+void Followers::place(Sample& joints) const noexcept {
+  for (const auto& [joint, leader, multiplier, offset] : followers_) {
+    joints.position(joint) = multiplier * joints.position(leader) + offset;
+    joints.velocity(joint) = multiplier * joints.velocity(leader);
+    joints.acceleration(joint) = multiplier * joints.acceleration(leader);
+  }
+}
+
 JointSpace::JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates)
-    : robot_(robot), coordinates_(coordinates) {
-  for (const std::string& coordinate : coordinates) joints_.push_back(robot.joint(coordinate));
+    : robot_(robot), coordinates_(coordinates), followers_(robot) {
+  for (const std::string& coordinate : coordinates) {
+    joints_.push_back(robot.joint(coordinate));
+    const Joint& joint = robot.joints[static_cast<std::size_t>(joints_.back())];
+    if (joint.follows())
+      throw Error("joint \"" + joint.name + "\"",
+                  "follows joint \"" + robot.joints[static_cast<std::size_t>(joint.leader)].name +
+                      "\", a sequence must move that one");
+  }
   held_.setZero(robot.dof());
 }
 
@@ -52,18 +82,20 @@ bool JointSpace::at_goal(const Eigen::Ref<const Eigen::VectorXd>& goal,
   joints = held_;
   for (std::size_t c = 0; c < joints_.size(); ++c)
     joints(joints_[c]) = goal(static_cast<Eigen::Index>(c));
+  robot_.place_followers(joints);
   return true;
 }
 
 void JointSpace::require_reachable(const Primitive& primitive) {
   for (std::size_t c = 0; c < primitive.coordinates.size(); ++c) {
     const int i = robot_.joint(primitive.coordinates[c]);
-    const Joint& joint = robot_.joints[static_cast<std::size_t>(i)];
     const double goal = primitive.goal(static_cast<Eigen::Index>(c));
-    if (goal < joint.lower || goal > joint.upper)
-      throw Error("joint \"" + joint.name + "\"", "goal " + std::to_string(goal) + ", must be in " +
-                                                      std::to_string(joint.lower) + " to " +
-                                                      std::to_string(joint.upper));
+    const Joint& moved = robot_.joints[static_cast<std::size_t>(i)];
+    require_within_limits(moved, goal, 0.0, "");
+    for (const Joint& joint : robot_.joints)
+      if (joint.leader == i)
+        require_within_limits(joint, joint.multiplier * goal + joint.offset, rounding,
+                              " as it follows \"" + moved.name + "\"");
   }
 }
 
@@ -77,6 +109,7 @@ bool JointSpace::find(const Sample& sample, Sample& joints) noexcept {
     joints.velocity(joints_[c]) = sample.velocity(d);
     joints.acceleration(joints_[c]) = sample.acceleration(d);
   }
+  followers_.place(joints);
   return true;
 }
 
@@ -86,6 +119,7 @@ TaskSpace::TaskSpace(const RobotModel& robot, const Sequence& sequence, const To
       most_speed_(tool.most_speed),
       tool_(robot, tool.link, tool.X_link_tool),
       solver_(robot, tool_, resting_at(tool.posture, q)),
+      followers_(robot),
       reference_(tool.orientation.value_or(Eigen::Quaterniond(tool_at(q).linear()))) {
   if (!(most_speed_ > 0.0)) throw Error("tool", "most_speed must be > 0");
   solution_.position = solution_.velocity = solution_.acceleration = q;
@@ -173,6 +207,7 @@ bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
   joints.position = solution_.position;
   joints.velocity = solution_.velocity;
   joints.acceleration = solution_.acceleration;
+  followers_.place(joints);
   return true;
 }
 

@@ -38,6 +38,9 @@ Kinematics::Kinematics(const RobotModel& model, const std::string& link,
   for (int i = model.frame(link).body; i >= 0;
        i = model.joints[static_cast<std::size_t>(i)].parent) {
     const Joint& joint = model.joints[static_cast<std::size_t>(i)];
+    if (joint.follows())
+      throw Error("link \"" + link + "\"", "is moved by joint \"" + joint.name +
+                                               "\", which follows another; take a link before it");
     chain_.push_back({i, joint.type == Joint::Type::prismatic, joint.X_parent_body, joint.axis,
                       Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   }

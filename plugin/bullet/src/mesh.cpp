@@ -49,6 +49,20 @@ Eigen::Matrix3Xf columns(const aiVector3D* vectors, unsigned count, bool y_up) {
   return result;
 }
 
+/// Normals that a file gives as zero come out of assimp as NaN: there those of the faces around take their place.
+void repair_normals(Mesh& mesh) {
+  Eigen::Matrix3Xf around = Eigen::Matrix3Xf::Zero(3, mesh.positions.cols());
+  for (const auto& corner : mesh.triangles.colwise()) {
+    const Eigen::Vector3f a = mesh.positions.col(corner(0));
+    const Eigen::Vector3f face =
+        (mesh.positions.col(corner(1)) - a).cross(mesh.positions.col(corner(2)) - a);
+    for (const int i : corner) around.col(i) += face;
+  }
+  for (Eigen::Index i = 0; i < mesh.normals.cols(); ++i)
+    if (!(mesh.normals.col(i).norm() > 0.5F))
+      mesh.normals.col(i) = around.col(i).stableNormalized();
+}
+
 Eigen::Vector4f colour_of(const aiMaterial& material) {
   aiColor4D colour(0.8F, 0.8F, 0.8F, 1.0F);
   material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
@@ -67,6 +81,7 @@ Mesh convert(const aiMesh& mesh, const aiMaterial& material, bool y_up) {
     result.triangles.col(i) =
         Eigen::Matrix<unsigned, 3, 1>(corner[0], corner[1], corner[2]).cast<int>();
   }
+  repair_normals(result);
   result.colour = colour_of(material);
   return result;
 }

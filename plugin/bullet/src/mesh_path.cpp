@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include "urdf_elements.hpp"
-#include <seam/error.hpp>
 
 namespace seam {
 namespace {
@@ -44,22 +43,38 @@ std::vector<fs::path> package_candidates(const fs::path& name, const MeshPlaces&
   }
   for (fs::path folder = folder_of(places); folder != folder.root_path();
        folder = folder.parent_path()) {
+    std::error_code status;
     if (folder.filename() == package) candidates.push_back(folder / rest);
+    if (fs::is_directory(folder / package, status)) candidates.push_back(folder / package / rest);
   }
   return candidates;
 }
 
+const std::string package = "package://";
+const std::string file = "file://";
+
+/// NAME/… of package://NAME/…, which some write with a slash too many.
+fs::path in_package(const std::string& name) {
+  return fs::path(name.substr(package.size())).relative_path();
+}
+
 std::vector<fs::path> mesh_candidates(const std::string& name, const MeshPlaces& places) {
-  const std::string package = "package://";
-  const std::string file = "file://";
   if (name.empty()) return {};
   if (starts_with(name, package)) {
-    const fs::path rest = name.substr(package.size());
+    const fs::path rest = in_package(name);
     return rest.empty() ? std::vector<fs::path>{} : package_candidates(rest, places);
   }
   if (starts_with(name, file)) return {folder_of(places) / name.substr(file.size())};
   if (name.find("://") != std::string::npos) return {};
   return {folder_of(places) / name};
+}
+
+std::string nowhere_to_look(const std::string& name) {
+  if (!starts_with(name, package)) return "must be package://, file:// or a path";
+  const fs::path rest = in_package(name);
+  return "no folder to look in: give one that is or holds package \"" +
+         (rest.empty() ? std::string() : rest.begin()->string()) +
+         "\" in package_path or ROS_PACKAGE_PATH";
 }
 
 }  // namespace
@@ -73,8 +88,8 @@ std::string mesh_path(const std::string& name, const MeshPlaces& places, const s
     if (fs::is_regular_file(path, status)) return path.string();
     looked += (looked.empty() ? "" : ", ") + path.string();
   }
-  throw Error(where, "mesh \"" + name + "\" not found, " +
-                         (looked.empty() ? "no folder to look in" : "looked for " + looked));
+  throw MeshNotFound(where, "mesh \"" + name + "\" not found, " +
+                                (looked.empty() ? nowhere_to_look(name) : "looked for " + looked));
 }
 
 }  // namespace seam

@@ -78,6 +78,8 @@ std::unique_ptr<btMultiBody> make_multibody(const RobotModel& model,
     describe_link(multibody->getLink(i), joint, model.bodies[k]);
   }
   multibody->finalizeMultiDof();
+  const Eigen::VectorXd q = model.neutral();
+  for (int i = 0; i < model.dof(); ++i) multibody->setJointPos(i, static_cast<btScalar>(q(i)));
   return multibody;
 }
 

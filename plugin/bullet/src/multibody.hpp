@@ -16,7 +16,7 @@ struct LinkFrame {
 };
 LinkFrame link_frame(const Inertial& inertial);
 
-/// The model as a multibody with a fixed base, ready to be added to a world. `frames` holds one
+/// The model as a multibody with a fixed base, at its neutral position, ready to be added to a world. `frames` holds one
 /// frame per body. Borrows the model's names.
 std::unique_ptr<btMultiBody> make_multibody(const RobotModel& model,
                                             const std::vector<LinkFrame>& frames);

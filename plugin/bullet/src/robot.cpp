@@ -103,7 +103,7 @@ void Robot::Parts::place_colliders() {
 
 Robot Robot::load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
                   const RobotSettings& settings) {
-  return Robot(RobotModel::read(urdf_path, settings.package_path), world, settings);
+  return Robot(RobotModel::read(urdf_path, settings.urdf), world, settings);
 }
 
 Robot::Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSettings& settings)

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "require_inertia.hpp"
 #include "urdf_document.hpp"
 #include "urdf_elements.hpp"
 #include <seam/error.hpp>
@@ -23,15 +24,18 @@ std::string names(const Items& items) {
 /// Walks the tree from its root and merges what is fixed.
 class ModelBuilder {
  public:
-  ModelBuilder(const UrdfDocument& document, MeshPlaces places)
-      : document_(document), places_(std::move(places)) {}
+  ModelBuilder(const UrdfDocument& document, const std::string& path, const UrdfSettings& settings)
+      : document_(document),
+        places_{path, settings.package_path},
+        leave_out_missing_meshes_(settings.leave_out_missing_meshes) {}
 
   RobotModel build() {
     const urdf::Link& root = *document_.model->getRoot();
     model_.name = document_.model->getName();
     model_.base.link = root.name;
     add_link(root, -1, Eigen::Isometry3d::Identity());
-    check_that_what_moves_has_mass();
+    resolve_leaders();
+    require_inertia(model_, places_.urdf);
     return std::move(model_);
   }
 
@@ -51,7 +55,7 @@ class ModelBuilder {
       const urdf::Link& child = *document_.model->getLink(joint->child_link_name);
       const Eigen::Isometry3d X =
           X_body_link * pose_from_urdf(joint->parent_to_joint_origin_transform);
-      if (joint->type == urdf::Joint::FIXED && !joint->mimic) {
+      if (joint->type == urdf::Joint::FIXED) {
         add_link(child, index, X);
       } else {
         add_joint(*joint, child, index, X);
@@ -74,17 +78,33 @@ class ModelBuilder {
     const std::string here = where("link", link.name);
     if (link.inertial) {
       body.inertial = body.inertial + X_body_link * inertial_from_urdf(*link.inertial, here);
+      const urdf::Inertial& given = *link.inertial;
+      if (given.mass == 0.0 && (given.ixx != 0.0 || given.iyy != 0.0 || given.izz != 0.0))
+        model_.ignored_inertia.push_back("link \"" + link.name +
+                                         "\": its mass is 0, its inertia not");
     }
-    const auto add = [&](std::vector<Geometry>& shapes, Geometry shape) {
-      shape.link = link.name;
-      shape.X_body_shape = X_body_link * shape.X_body_shape;
-      shapes.push_back(std::move(shape));
-    };
     for (const auto& visual : link.visual_array) {
-      add(body.visuals, visual_from_urdf(*visual, places_, here));
+      add_shape(body.visuals, link.name, X_body_link,
+                [&] { return visual_from_urdf(*visual, places_, here); });
     }
     for (const auto& collision : link.collision_array) {
-      add(body.collisions, collision_from_urdf(*collision, places_, here));
+      add_shape(body.collisions, link.name, X_body_link,
+                [&] { return collision_from_urdf(*collision, places_, here); });
+    }
+  }
+
+  template <typename Make>
+  void add_shape(std::vector<Geometry>& shapes, const std::string& link,
+                 const Eigen::Isometry3d& X_body_link, Make make) {
+    try {
+      Geometry shape = make();
+      shape.link = link;
+      shape.X_body_shape = X_body_link * shape.X_body_shape;
+      shapes.push_back(std::move(shape));
+    } catch (const MeshNotFound& missing) {
+      if (!leave_out_missing_meshes_) throw;
+      model_.missing_meshes.push_back(
+          std::string(missing.what()).substr(places_.urdf.size() + std::string(": ").size()));
     }
   }
 
@@ -99,17 +119,33 @@ class ModelBuilder {
     return joints;
   }
 
-  void check_that_what_moves_has_mass() const {
-    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
-      if (model_.bodies[i].inertial.mass > 0.0) continue;
-      throw Error(where("link", model_.bodies[i].link),
-                  "has no mass, nor has any link fixed to it, but joint \"" +
-                      model_.joints[i].name + "\" moves it: must be > 0");
+  // A follower of a follower follows that one's leader.
+  void resolve_leaders() {
+    for (Joint& joint : model_.joints) {
+      const auto mimic = document_.model->getJoint(joint.name)->mimic;
+      const std::string here = where("joint", joint.name);
+      int steps = 0;
+      for (auto next = mimic; next; ++steps) {
+        if (steps == model_.dof()) throw Error(here, "mimics itself, must lead to another joint");
+        joint.leader = joint_behind(*next, here);
+        const auto& leader = *document_.model->getJoint(next->joint_name);
+        next = leader.mimic;
+        if (!next) continue;
+        joint.offset += joint.multiplier * next->offset;
+        joint.multiplier *= next->multiplier;
+      }
     }
+  }
+
+  int joint_behind(const urdf::JointMimic& mimic, const std::string& here) const {
+    for (int i = 0; i < model_.dof(); ++i)
+      if (model_.joints[static_cast<std::size_t>(i)].name == mimic.joint_name) return i;
+    throw Error(here, "mimics joint \"" + mimic.joint_name + "\", must be one that moves");
   }
 
   const UrdfDocument& document_;
   MeshPlaces places_;
+  bool leave_out_missing_meshes_;
   RobotModel model_;
 };
 
@@ -161,10 +197,26 @@ const Frame& RobotModel::frame(const std::string& link_name) const {
   throw Error("robot \"" + name + "\"", "no link \"" + link_name + "\", it has" + names(frames));
 }
 
-RobotModel RobotModel::read(const std::string& urdf_path,
-                            const std::vector<std::string>& package_path) {
+void RobotModel::place_followers(Eigen::Ref<Eigen::VectorXd> q) const noexcept {
+  for (int i = 0; i < dof(); ++i) {
+    const Joint& joint = joints[static_cast<std::size_t>(i)];
+    if (joint.follows()) q(i) = joint.multiplier * q(joint.leader) + joint.offset;
+  }
+}
+
+Eigen::VectorXd RobotModel::neutral() const {
+  Eigen::VectorXd q(dof());
+  for (int i = 0; i < dof(); ++i) {
+    const Joint& joint = joints[static_cast<std::size_t>(i)];
+    q(i) = std::min(std::max(0.0, joint.lower), joint.upper);
+  }
+  place_followers(q);
+  return q;
+}
+
+RobotModel RobotModel::read(const std::string& urdf_path, const UrdfSettings& settings) {
   const UrdfDocument document = read_urdf(urdf_path);
-  return ModelBuilder(document, {urdf_path, package_path}).build();
+  return ModelBuilder(document, urdf_path, settings).build();
 }
 
 }  // namespace seam

@@ -76,6 +76,18 @@ std::string attribute(const tinyxml2::XMLElement* element, const char* name) {
   return value ? value : "";
 }
 
+bool is_xacro(const tinyxml2::XMLElement& element) {
+  return std::string(element.Name()).rfind("xacro:", 0) == 0;
+}
+
+/// The first element of xacro, null if there is none.
+const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
+  if (is_xacro(element)) return &element;
+  for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+    if (const auto* found = find_xacro(*child)) return found;
+  return nullptr;
+}
+
 std::vector<JointElement> joint_elements(const std::string& path, const std::string& text) {
   tinyxml2::XMLDocument xml;
   if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
@@ -86,6 +98,10 @@ std::vector<JointElement> joint_elements(const std::string& path, const std::str
   const std::string root_name = root ? root->Name() : "";
   if (root_name != "robot")
     throw Error(path, "root element is <" + root_name + ">, must be <robot>");
+  if (const auto* found = find_xacro(*root))
+    throw Error(path + ":" + std::to_string(found->GetLineNum()),
+                std::string("<") + found->Name() +
+                    "> is xacro, must be expanded first: xacro in.xacro > out.urdf");
   std::vector<JointElement> joints;
   for (auto* joint = root->FirstChildElement("joint"); joint;
        joint = joint->NextSiblingElement("joint")) {

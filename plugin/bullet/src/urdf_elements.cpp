@@ -56,8 +56,6 @@ void set_limits(Joint& joint, const urdf::JointLimits* limits, const std::string
 }
 
 Joint::Type joint_type(const urdf::Joint& joint, const std::string& where) {
-  if (joint.mimic)
-    throw Error(where, text("mimics joint \"", joint.mimic->joint_name, "\", must move by itself"));
   const char* const refusal = "joint, must be revolute, continuous, prismatic or fixed";
   switch (joint.type) {
     case urdf::Joint::REVOLUTE:
@@ -98,11 +96,11 @@ void set_mesh(Geometry& geometry, const urdf::Mesh& mesh, const MeshPlaces& plac
               const std::string& where) {
   geometry.type = Geometry::Type::mesh;
   geometry.scale = vector_from_urdf(mesh.scale);
-  geometry.mesh = mesh_path(mesh.filename, places, where);
   if ((geometry.scale.array() == 0.0).any()) {
     throw Error(where, text("mesh \"", mesh.filename, "\" of scale ", mesh.scale.x, " ",
                             mesh.scale.y, " ", mesh.scale.z, ", must not be 0"));
   }
+  geometry.mesh = mesh_path(mesh.filename, places, where);
 }
 
 Geometry geometry_from_urdf(const urdf::Geometry& shape, const urdf::Pose& origin,
@@ -141,9 +139,10 @@ Inertial inertial_from_urdf(const urdf::Inertial& inertial, const std::string& w
   in_com.inertia << inertial.ixx, inertial.ixy, inertial.ixz,  //
       inertial.ixy, inertial.iyy, inertial.iyz,                //
       inertial.ixz, inertial.iyz, inertial.izz;
-  if (in_com.mass == 0.0 && in_com.inertia.isZero(0.0)) return {};
-  if (!(in_com.mass > 0.0)) throw Error(where, text("mass ", in_com.mass, " kg, must be > 0"));
-  check_principal_moments(in_com.inertia.selfadjointView<Eigen::Lower>().eigenvalues(), where);
+  if (in_com.mass == 0.0) return {};
+  if (!(in_com.mass > 0.0)) throw Error(where, text("mass ", in_com.mass, " kg, must be >= 0"));
+  if (!in_com.inertia.isZero(0.0))
+    check_principal_moments(in_com.inertia.selfadjointView<Eigen::Lower>().eigenvalues(), where);
   return pose_from_urdf(inertial.origin) * in_com;
 }
 
@@ -156,6 +155,10 @@ Joint joint_from_urdf(const urdf::Joint& joint, const std::string& where) {
     throw Error(where, text("axis ", axis[0], " ", axis[1], " ", axis[2], ", must not be zero"));
   }
   result.axis = axis.normalized();
+  if (joint.mimic) {
+    result.multiplier = joint.mimic->multiplier;
+    result.offset = joint.mimic->offset;
+  }
   set_limits(result, joint.limits.get(), where);
   return result;
 }

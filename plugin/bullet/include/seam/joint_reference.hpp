@@ -45,10 +45,26 @@ class JointReference {
   virtual ToolError miss(const Sample& sample, const Eigen::VectorXd& q) noexcept = 0;
 };
 
-/// The coordinates are joints; those that are not named hold the position in which they were measured.
+/// The followers among a robot's joints, and where a reference has them.
+class Followers {
+ public:
+  explicit Followers(const RobotModel& robot);  // copies what it needs
+  /// Position by multiplier and offset, velocity and acceleration by the multiplier. Neither allocates nor throws.
+  void place(Sample& joints) const noexcept;
+
+ private:
+  struct Follower {
+    Eigen::Index joint, leader;
+    double multiplier, offset;
+  };
+  std::vector<Follower> followers_;
+};
+
+/// The coordinates are joints; those that are not named hold the position in which they were measured,
+/// or follow their leaders.
 class JointSpace final : public JointReference {
  public:
-  /// @throws Error  a coordinate is not a joint of the robot
+  /// @throws Error  a coordinate is not a joint of the robot, or one that follows another
   JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates);
 
   Sample measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) override;
@@ -64,6 +80,7 @@ class JointSpace final : public JointReference {
   std::vector<std::string> coordinates_;
   std::vector<Eigen::Index> joints_;  // of each coordinate
   Eigen::VectorXd held_;              // n, where the joints were that are not named
+  Followers followers_;
 };
 
 /// The tool that a task-space sequence moves, and the joints' posture while it does.
@@ -80,7 +97,7 @@ struct ToolSettings {
 /// The coordinates are a tool's: x y z [m] in the frame of the robot's root link, and rx ry rz, the rotation vector about
 /// the sequence's reference orientation (see orientation.hpp). Without the latter three the tool keeps
 /// the orientation of its settings. Joints follow from InverseKinematics, exact in
-/// velocity and acceleration too; near a singularity the tool may be off by millimetres, which ToolError says.
+/// velocity and acceleration too, and followers from their leaders; near a singularity the tool may be off by millimetres, which ToolError says.
 class TaskSpace final : public JointReference {
  public:
   /// @param q  joint positions at the beginning
@@ -116,6 +133,7 @@ class TaskSpace final : public JointReference {
   double most_speed_;
   Kinematics tool_;
   InverseKinematics solver_;
+  Followers followers_;
   Eigen::Quaterniond reference_;  // q₀, or the orientation that is kept
   ToolState target_;
   JointSolution solution_;

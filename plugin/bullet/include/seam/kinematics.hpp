@@ -25,7 +25,7 @@ class Kinematics {
  public:
   /// @param link         a URDF link of the model
   /// @param X_link_tool  pose of the frame in the link
-  /// @throws Error  no such link, or no joint moves it
+  /// @throws Error  no such link, no joint moves it, or one that follows another does
   Kinematics(const RobotModel& model, const std::string& link,
              const Eigen::Isometry3d& X_link_tool = Eigen::Isometry3d::Identity());
 

@@ -20,8 +20,8 @@ struct Mesh {
 
 /// The meshes of a file that assimp reads (OBJ, STL, DAE, glTF, …), one per material: node
 /// transforms and COLLADA's unit applied, triangulated, Z up (the up-axis of COLLADA and glTF is
-/// turned). Normals are the file's, or made from its faces with creases above 35° kept sharp. Faces
-/// without area are left out.
+/// turned). Normals are the file's, or made from its faces with creases above 35° kept sharp where it has
+/// none, and from the faces around where it has some of length 0. Faces without area are left out.
 /// @throws Error  the file cannot be read, holds no triangle, or holds a value that is not finite
 std::vector<Mesh> load_mesh(const std::string& path);
 

@@ -20,10 +20,10 @@ namespace SEAM_API seam {
 /// Where a robot stands, and what it is to collisions.
 struct RobotSettings {
   Eigen::Isometry3d X_world_base = Eigen::Isometry3d::Identity();  // pose of the URDF's root link
-  std::vector<std::string> package_path;  // where package:// names are looked up first
-  bool colliders = true;                  // give the links collision shapes
-  bool self_collision = true;             // between bodies that no joint joins
-  double friction = 0.5;                  // of the colliders
+  UrdfSettings urdf;                                               // how `load` reads it
+  bool colliders = true;       // give the links collision shapes
+  bool self_collision = true;  // between bodies that no joint joins
+  double friction = 0.5;       // of the colliders
 };
 
 /// A robot in a Bullet world: the `btMultiBody` made from a URDF, its colliders and shapes, which
@@ -57,8 +57,9 @@ class Robot {
 
   /// Positions [rad or m] and velocities [rad/s or m/s] of as many joints, from the first on, as there is room for.
   void state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
-  /// Puts the arm at (q, q̇); colliders and their bounding boxes follow. Forces and torques that
-  /// wait for the next step stay.
+  /// Puts the arm at (q, q̇), which is RobotModel::neutral() to begin with. Followers are put where q says, not where
+  /// their leaders have them (see RobotModel::place_followers). Colliders and their bounding boxes
+  /// follow. Forces and torques that wait for the next step stay.
   void reset(const Eigen::Ref<const Eigen::VectorXd>& q,
              const Eigen::Ref<const Eigen::VectorXd>& qd);
   /// Pose of the root link in the world.

@@ -1,0 +1,129 @@
+#include "require_inertia.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+
+#include <seam/error.hpp>
+
+namespace seam {
+
+namespace {
+
+constexpr int positions = 300;
+constexpr double least_share = 1e-5;
+
+// The joint's column of a body's Jacobian: velocity of its centre of mass, and of its turning.
+struct Column {
+  Eigen::Vector3d linear, angular;
+};
+
+Column column(const Joint& joint, const Eigen::Isometry3d& X_base_joint,
+              const Eigen::Vector3d& com) {
+  const Eigen::Vector3d axis = X_base_joint.linear() * joint.axis;
+  if (joint.type == Joint::Type::prismatic) return {axis, Eigen::Vector3d::Zero()};
+  return {axis.cross(com - X_base_joint.translation()), axis};
+}
+
+// One of the positions at which joints like to line up, or any.
+double anywhere(const Joint& joint, std::mt19937_64& random) {
+  const double low = std::max(joint.lower, -M_PI);
+  const double high = std::min(joint.upper, M_PI);
+  const auto part = static_cast<double>(random() >> 11) * 0x1p-53;
+  const double any = low + part * (high - low);
+  const double choices[] = {any, any, 0.0, 0.5 * (low + high), low, high, 0.5 * M_PI, -0.5 * M_PI};
+  return std::min(std::max(choices[random() % 8], low), high);
+}
+
+// Has no mass, or is a point or a line.
+bool lacks_inertia(const Body& body) {
+  const Eigen::Matrix3d& inertia = body.inertial.inertia;
+  return inertia.selfadjointView<Eigen::Lower>().eigenvalues()(0) <= 1e-12 * inertia.trace();
+}
+
+// Whether anything that the joint moves has mass.
+bool moves_mass(const RobotModel& model, std::size_t joint) {
+  std::vector<bool> moved(model.joints.size(), false);
+  moved[joint] = true;
+  for (std::size_t i = joint; i < model.joints.size(); ++i) {
+    const int parent = model.joints[i].parent;
+    if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = true;
+    if (moved[i] && model.bodies[i].inertial.mass > 0.0) return true;
+  }
+  return false;
+}
+
+// The joints' motion that meets least inertia, for a diagonal of ones.
+struct Weakest {
+  double share;
+  Eigen::VectorXd motion;
+};
+
+Weakest weakest(const Eigen::MatrixXd& M) {
+  const Eigen::VectorXd scale =
+      M.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * M *
+                                                              scale.asDiagonal());
+  return {solver.eigenvalues()(0), solver.eigenvectors().col(0).cwiseAbs()};
+}
+
+[[noreturn]] void refuse(const RobotModel& model, std::size_t body, const std::string& path,
+                         const std::string& why) {
+  const char* const what = model.bodies[body].inertial.mass > 0.0 ? "inertia" : "mass";
+  throw Error(path + ": link \"" + model.bodies[body].link + "\"",
+              std::string("has no ") + what + ", nor has any link fixed to it, but joint \"" +
+                  model.joints[body].name + "\" moves it" + why + ": must be > 0");
+}
+
+}  // namespace
+
+Eigen::MatrixXd inertia_matrix(const RobotModel& model, const Eigen::VectorXd& q) {
+  const int n = model.dof();
+  std::vector<Eigen::Isometry3d> X_base_body, X_base_joint;
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    const Joint& joint = model.joints[static_cast<std::size_t>(i)];
+    const Eigen::Isometry3d X_base_parent =
+        joint.parent < 0 ? Eigen::Isometry3d::Identity()
+                         : X_base_body[static_cast<std::size_t>(joint.parent)];
+    X_base_joint.push_back(X_base_parent * joint.X_parent_body);
+    X_base_body.push_back(X_base_parent * joint.X_parent_body_at(q(i)));
+    const Inertial body = X_base_body.back() * model.bodies[static_cast<std::size_t>(i)].inertial;
+    Eigen::Matrix3Xd linear = Eigen::Matrix3Xd::Zero(3, n), angular = linear;
+    for (int k = i; k >= 0; k = model.joints[static_cast<std::size_t>(k)].parent) {
+      const auto moved = column(model.joints[static_cast<std::size_t>(k)],
+                                X_base_joint[static_cast<std::size_t>(k)], body.com);
+      linear.col(k) = moved.linear;
+      angular.col(k) = moved.angular;
+    }
+    M += body.mass * linear.transpose() * linear + angular.transpose() * body.inertia * angular;
+  }
+  return M;
+}
+
+void require_inertia(const RobotModel& model, const std::string& path) {
+  std::vector<std::size_t> suspects;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (lacks_inertia(model.bodies[i])) suspects.push_back(i);
+  if (suspects.empty()) return;
+  for (const std::size_t i : suspects)
+    if (!moves_mass(model, i)) refuse(model, i, path, "");
+  std::mt19937_64 random(1);
+  Eigen::VectorXd q(model.dof());
+  for (int k = 0; k < positions; ++k) {
+    for (int i = 0; i < model.dof(); ++i)
+      q(i) = anywhere(model.joints[static_cast<std::size_t>(i)], random);
+    const auto [share, motion] = weakest(inertia_matrix(model, q));
+    if (share >= least_share) continue;
+    std::size_t suspect = suspects.front();
+    for (const std::size_t i : suspects)
+      if (motion(static_cast<Eigen::Index>(i)) > motion(static_cast<Eigen::Index>(suspect)))
+        suspect = i;
+    refuse(model, suspect, path, ", and in some position nothing behind it resists");
+  }
+}
+
+}  // namespace seam
