@@ -183,6 +183,11 @@ Check check_inertia(const RobotModel& model, const std::vector<BodyFigures>& bod
       find_odd(check, true, here + "inertia 1 1 1 kg m², which looks like a placeholder");
       continue;
     }
+    const double excess = body.moments(2) / (body.moments(0) + body.moments(1)) - 1.0;
+    find_odd(check, excess > 1e-6,
+             here + fmt::format("its largest moment of inertia exceeds the sum of the other two by "
+                                "{:.1f} %, which no body's does",
+                                100.0 * excess));
     if (body.box.isEmpty()) continue;
     const double widest = body.gyration(2);
     find_odd(check,

@@ -108,6 +108,8 @@ TEST(CheckRobot, NamesWhatLooksWrong) {
   EXPECT_THAT(oddities("inertia", R"(iyy="0.1667" iyz="0" izz="0.1667")",
                        R"(iyy="0.001" iyz="0" izz="0.001")"),
               Contains(HasSubstr(R"(link "rod": radius of gyration 0.0224 m)")));
+  EXPECT_THAT(oddities("inertia", R"(izz="0.1667")", R"(izz="0.171")"),
+              Contains(HasSubstr(R"(link "rod": its largest moment of inertia exceeds the sum)")));
   EXPECT_THAT(
       oddities("inertia", R"(<origin xyz="0.5 0 0"/><mass)", R"(<origin xyz="1.5 0 0"/><mass)"),
       Contains(R"(link "rod": centre of mass 0.5 m outside its shape)"));

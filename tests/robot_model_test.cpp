@@ -157,7 +157,7 @@ const Refused refusals[] = {
      R"(x.urdf: link "a": inertia has the principal moments 0, 1, 1 kg m^2, must all be > 0)"},
     {"InertiaImpossible", inertial("1", "0.1", "0.5", "0.2"),
      R"(x.urdf: link "a": inertia has the principal moments 0.1, 0.2, 0.5 kg m^2, none may exceed )"
-     "the sum of the other two"},
+     "the sum of the other two by more than 5 %"},
     {"OriginNan",
      robot(link(
          "a",
@@ -376,6 +376,10 @@ TEST(RobotModel, TakesAMassWithoutInertiaForAPoint) {
                 joint("j", "revolute", "a", "b", std::string(limits) + R"(<axis xyz="0 1 0"/>)"))),
       R"(x.urdf: link "b": has no inertia, nor has any link fixed to it, but joint "j" moves it, )"
       "and in some position nothing behind it resists: must be > 0");
+}
+
+TEST(RobotModel, AcceptsAMomentThatIsRoundedUp) {
+  EXPECT_EQ(read(inertial("1", "0.1", "0.312", "0.2")).base.inertial.mass, 1.0);
 }
 
 TEST(RobotModel, AcceptsPlatesAndRods) {

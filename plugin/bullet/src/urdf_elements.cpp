@@ -11,6 +11,7 @@ namespace seam {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounded = 0.05;  // what CAD programs and their users make of flat bodies
 
 template <typename... Parts>
 std::string text(const Parts&... parts) {
@@ -25,12 +26,11 @@ Eigen::Vector3d vector_from_urdf(const urdf::Vector3& v) {
 }
 
 void check_principal_moments(const Eigen::Vector3d& moments, const std::string& where) {
-  const double slack = 1e-9 * moments.sum();
   const std::string found = text("inertia has the principal moments ", moments[0], ", ", moments[1],
                                  ", ", moments[2], " kg m^2, ");
   if (!(moments[0] > 0.0)) throw Error(where, found + "must all be > 0");
-  if (moments[2] > moments[0] + moments[1] + slack) {
-    throw Error(where, found + "none may exceed the sum of the other two");
+  if (moments[2] > (1.0 + rounded) * (moments[0] + moments[1])) {
+    throw Error(where, found + "none may exceed the sum of the other two by more than 5 %");
   }
 }
 

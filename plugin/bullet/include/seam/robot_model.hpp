@@ -130,7 +130,7 @@ struct RobotModel {
   /// unknown shapes, for one, and calls that success); xacro that is not expanded; joints that are
   /// floating or planar; a joint that mimics itself, in a ring, or one that is not there or fixed; links that are not
   /// in one tree; a mass < 0; an inertia that is neither zeros nor positive definite, or breaks the triangle
-  /// rule; a moving body whose mass or inertia is missed; a zero axis; lower > upper; negative or missing effort
+  /// rule by more than 5 % (by less, many that are rounded do); a moving body whose mass or inertia is missed; a zero axis; lower > upper; negative or missing effort
   /// or speed; shapes of size ≤ 0; a mesh scale of 0; a mesh file that is not found, unless the
   /// settings leave it out. Values that are not finite never pass urdfdom. A continuous joint has no
   /// position limits and may go without <limit>. Not read: <dynamics>, <safety_controller>,
