@@ -307,6 +307,19 @@ TEST(RobotModel, TurnsInertiaGivenInARotatedFrame) {
             1e-15);
 }
 
+// One behind the other: deeper than a stack would bear.
+TEST(RobotModel, RefusesMoreJointsThanAnyRobotHas) {
+  const auto chain = [](int joints) {
+    std::string content = link("0", "");
+    for (int i = 1; i <= joints; ++i)
+      content += link(std::to_string(i), "") +
+                 joint(std::to_string(i), "fixed", std::to_string(i - 1), std::to_string(i), "");
+    return robot(content);
+  };
+  EXPECT_EQ(read(chain(1000)).frames.size(), 1001U);
+  EXPECT_EQ(refusal(chain(20000)), "x.urdf: 20000 joints, must be <= 1000");
+}
+
 TEST(RobotModel, TakesAnInertialOfZerosForNone) {
   EXPECT_EQ(read(inertial("0", "0", "0", "0")).base.inertial.mass, 0.0);
   EXPECT_EQ(refusal(robot(link("a") + link("b", inertial_element("0", "0", "0", "0")) +
