@@ -205,6 +205,8 @@ const Refused refusals[] = {
      R"(x.urdf: link "a": visual: mesh "package://none/no.obj" not found, no folder to look in)"},
     {"MeshFromTheNet", shape("visual", R"(<mesh filename="http://x/no.obj"/>)"),
      R"(x.urdf: link "a": visual: mesh "http://x/no.obj" not found, no folder to look in)"},
+    {"MeshOfTwoLines", shape("visual", "<mesh filename=\"a&#10;b\"/>"),
+     R"(x.urdf: link "a": visual: mesh "a b" not found, looked for a b)"},
     {"MeshIsAFolder", shape("visual", R"(<mesh filename="."/>)"),
      R"(x.urdf: link "a": visual: mesh "." not found, looked for )"},
     {"MeshWithoutScale", shape("visual", R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),

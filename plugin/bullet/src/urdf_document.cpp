@@ -1,6 +1,5 @@
 #include "urdf_document.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <mutex>
@@ -35,12 +34,7 @@ class UrdfdomErrors final : public console_bridge::OutputHandler {
     text_ += (text_.empty() ? "" : "; ") + message;
   }
 
-  /// All of them in one line.
-  std::string text() const {
-    std::string line = text_;
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    return line;
-  }
+  const std::string& text() const { return text_; }
 
  private:
   static std::mutex& mutex() {

@@ -34,13 +34,6 @@ std::string listed(std::initializer_list<const char*> texts) {
   return list;
 }
 
-// Keys and values may hold line breaks, messages may not.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-  return text;
-}
-
 constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 20;
 constexpr std::size_t most_values = 200'000;
 constexpr std::size_t most_levels = 32;
@@ -164,7 +157,7 @@ void set(YAML::Node node, const std::string& change) {
   try {
     node = YAML::Load(change.substr(equals + 1));
   } catch (const YAML::Exception& error) {
-    throw Error(change, one_line("the value is not YAML: " + error.msg));
+    throw Error(change, "the value is not YAML: " + error.msg);
   }
 }
 
@@ -183,14 +176,13 @@ YamlEntry YamlEntry::read(const std::string& path, const std::vector<std::string
     for (const std::string& change : overrides) set(root, change);
     return {root, source, "", root.Mark().line};
   } catch (const YAML::Exception& error) {
-    throw Error(path + ":" + std::to_string(error.mark.line + 1),
-                one_line("not YAML: " + error.msg));
+    throw Error(path + ":" + std::to_string(error.mark.line + 1), "not YAML: " + error.msg);
   }
 }
 
 void YamlEntry::fail(const std::string& what) const {
   throw Error(line_ < 0 ? source_->path : source_->path + ":" + std::to_string(line_ + 1),
-              one_line((key_.empty() ? "" : "key \"" + key_ + "\": ") + what));
+              (key_.empty() ? "" : "key \"" + key_ + "\": ") + what);
 }
 
 const YamlEntry& YamlEntry::require_format(const std::string& name, int newest) const {
