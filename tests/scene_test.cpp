@@ -231,7 +231,7 @@ TEST(Scene, NamesFilesOfItsOwnFolderOfSeamsAssetsAndOfFoldersThatAreAllowed) {
                 ":1: key \"urdf\": \"../robots/arm.urdf\" leads out of the file's folder, must be "
                 "in it or below, or in a folder that is allowed (seam --allow DIR)");
   EXPECT_THAT(test::refusal([&] { Scene::read(scene, other, {folder.path("robots")}); }),
-              HasSubstr("coordinate \"E1\""));
+              HasSubstr("no joint \"E1\""));
 }
 
 TEST(Scene, AsksForNoMoreThanAMachineHas) {

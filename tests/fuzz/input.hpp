@@ -24,7 +24,9 @@ class Inputs {
     fs::copy(SEAM_ASSETS "/pa10/pa10.urdf", folder_.path("pa10.urdf"));
   }
 
+  // A new file each time: to write one anew can mean to wait for the disk.
   const std::string& put(const std::uint8_t* data, std::size_t size) const {
+    std::filesystem::remove(path_);
     std::ofstream(path_, std::ios::binary)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
     return path_;
