@@ -13,6 +13,7 @@ namespace SEAM_API seam {
 /// `pa10.urdf: link "w1": mass -1 kg, must be > 0`. Nothing that runs inside a tick throws.
 class Error : public std::runtime_error {
  public:
+  /// @param line  the message; control characters in it become blanks
   explicit Error(const std::string& line) : std::runtime_error(in_one_line(line)) {}
   /// @param place  the file, and where in it, e.g. `reach.csv:12`
   /// @param what   what is wrong and what would be right

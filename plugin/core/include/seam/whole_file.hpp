@@ -31,9 +31,12 @@ class PartFile {
   explicit PartFile(std::string path);
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
+  /// Removes it unless it was finished.
   ~PartFile();
 
-  const std::string& name() const { return name_; }  // PATH.part
+  /// PATH.part, to write to. It must not be made anew.
+  const std::string& name() const { return name_; }
+  /// Renames it to PATH.
   /// @throws Error  cannot be renamed
   void finish();
 
