@@ -11,7 +11,6 @@
 
 #include "bench/columns.hpp"
 #include "bench/compare.hpp"
-#include "bench/figure.hpp"
 #include "bench/gate.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/names.hpp"
@@ -30,7 +29,7 @@ struct Options {
   std::vector<std::string> methods;
   std::optional<double> dt;  // [s]
   std::vector<double> speeds;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, allowed;
   bool list = false;
   int jobs = all_cores();
   std::string out = "results";
@@ -54,7 +53,7 @@ std::vector<Scene> read_scenes(const Options& options) {
   std::set<std::string> seen;
   for (const std::string& name : scene_files(options.scenes))
     for (const auto& overrides : overrides_of(options)) {
-      Scene& scene = scenes.emplace_back(Scene::read(name, overrides));
+      Scene& scene = scenes.emplace_back(Scene::read(name, overrides, options.allowed));
       if (scene.speed != 1.0) scene.name += fmt::format("-{:g}x", scene.speed);
       if (!seen.insert(scene.name).second)
         throw Error("scene \"" + scene.name + "\"", "given twice");
@@ -67,8 +66,9 @@ void list_scenes(const Options& options) {
     fmt::print("{:10}  {}\n", scene.name, scene.title);
 }
 
-std::string own_method(const std::string& scene) {
-  const auto method = Scene::read(scene_file(scene)).method;
+std::string own_method(const Options& options) {
+  const std::string& scene = options.scenes[0];
+  const auto method = Scene::read(scene_file(scene), options.overrides, options.allowed).method;
   if (!method)
     throw Error(scene, "has no key \"method\", needs --method dmp2, dmp2a, dmp3 or dmp2j");
   return std::string(to_string(*method));
@@ -112,10 +112,7 @@ bool bench(const Options& options) {
   const auto comparisons =
       compare(read_scenes(options), read_methods(options.methods), options.jobs, show_progress);
   write_results(comparisons, SEAM_VERSION, options.out);
-  for (const Comparison& comparison : comparisons) {
-    print(comparison);
-    draw_figures(comparison, options.out);
-  }
+  for (const Comparison& comparison : comparisons) print(comparison);
   if (comparisons.size() > 1) fmt::print("{}\n", overview(comparisons));
   fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n",
              options.out);
@@ -135,6 +132,7 @@ void add_common(CLI::App& command, Options& options) {
       ->delimiter(',')
       ->check(CLI::Number & CLI::Range(1e-3, 1e3));
   add_set_option(command, options.overrides);
+  add_allow_option(command, options.allowed);
   add_jobs_option(command, options.jobs);
   command.add_option("--out", options.out, "folder for the results")->capture_default_str();
 }
@@ -175,7 +173,7 @@ void add_run_command(CLI::App& app) {
       ->expected(1);
   add_common(command, *options);
   command.callback([options] {
-    if (options->methods.empty()) options->methods = {own_method(options->scenes[0])};
+    if (options->methods.empty()) options->methods = {own_method(*options)};
     bench_and_exit(*options);
   });
 }

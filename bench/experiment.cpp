@@ -13,8 +13,10 @@
 #include "bench/gnuplot.hpp"
 #include "bench/markdown.hpp"
 #include "plugin/files/src/yaml_reader.hpp"
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 #include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
@@ -87,11 +89,12 @@ void require_measured(const Experiment& experiment, const Measured& measured) {
 
 }  // namespace
 
-Experiment Experiment::read(const std::string& path) {
-  const YamlEntry root = YamlEntry::read(path);
+Experiment Experiment::read(const std::string& path, const std::vector<std::string>& allowed) {
+  const YamlEntry root = YamlEntry::read(path, {}, with_own_folders(allowed));
   root.require_format("seam-experiment", 1);
   root.only({"format", "title", "scene", "set", "vary", "values", "axis", "panels", "text"});
   Experiment experiment;
+  experiment.allowed = allowed;
   experiment.name = std::filesystem::path(path).stem().string();
   experiment.title = root.at("title").text();
   experiment.scene = root.at("scene").path();
@@ -121,7 +124,7 @@ std::vector<Measured> perform(const Experiment& experiment, int jobs,
   for (const double value : experiment.values) {
     std::vector<std::string> overrides = experiment.overrides;
     overrides.push_back(fmt::format("{}={}", experiment.vary, value));
-    const Scene scene = Scene::read(experiment.scene, overrides);
+    const Scene scene = Scene::read(experiment.scene, overrides, experiment.allowed);
     Measured& at = measured.emplace_back();
     at.value = value;
     const std::vector<Comparison> compared = compare({scene}, methods, jobs, quiet);

@@ -19,21 +19,22 @@ struct Experiment {
     bool log = false;
   };
 
-  std::string name;   // the file's name without its ending
-  std::string title;  // one line
-  std::string scene;  // path of the scene file
-  std::vector<std::string> overrides;
-  std::string vary;            // the entry that is varied
-  std::vector<double> values;  // increasing
-  std::string over;            // metric, of dmp2's run, over which all is drawn; empty: the value
-  std::string label;           // of that axis, with the unit
+  std::string name;                             // the file's name without its ending
+  std::string title;                            // one line
+  std::string scene;                            // path of the scene file
+  std::vector<std::string> overrides, allowed;  // see Scene::read
+  std::string vary;                             // the entry that is varied
+  std::vector<double> values;                   // increasing
+  std::string over;   // metric, of dmp2's run, over which all is drawn; empty: the value
+  std::string label;  // of that axis, with the unit
   bool log = false;
   std::vector<Panel> panels;
   std::string text;  // what it shows, with figures in braces: see `answer`
 
   /// Reads a file of the format `seam-experiment 1` (see bench/experiments/).
+  /// @param allowed  folders of which it and its scene may name files, see Scene::read
   /// @throws Error  names file, line and key
-  static Experiment read(const std::string& path);
+  static Experiment read(const std::string& path, const std::vector<std::string>& allowed = {});
 };
 
 /// What came of one value: method → metric → figure. NaN: could not be measured.

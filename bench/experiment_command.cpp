@@ -20,7 +20,7 @@ namespace {
 struct Options {
   std::vector<std::string> experiments;
   std::string scene;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, allowed;
   std::vector<double> values;
   int jobs = all_cores();
   std::string out = "results/experiments";
@@ -28,7 +28,7 @@ struct Options {
 };
 
 Experiment read(const std::string& file, const Options& options) {
-  Experiment experiment = Experiment::read(file);
+  Experiment experiment = Experiment::read(file, options.allowed);
   if (!options.scene.empty()) {
     experiment.scene = scene_file(options.scene);
     experiment.overrides.clear();
@@ -71,6 +71,7 @@ void add_experiment_command(CLI::App& app) {
   command.add_flag("--list", options->list, "name the experiments, a line each, and do none");
   command.add_option("--scene", options->scene, "your own scene instead of the experiment's");
   add_set_option(command, options->overrides);
+  add_allow_option(command, options->allowed);
   command.add_option("--values", options->values, "values of what is varied, e.g. 0.5,1,1.5")
       ->allow_extra_args(false)
       ->delimiter(',');

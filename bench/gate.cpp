@@ -12,7 +12,7 @@
 #include "bench/columns.hpp"
 #include "plugin/files/src/yaml_reader.hpp"
 #include <seam/error.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 

@@ -1,36 +1,55 @@
 #include "bench/gnuplot.hpp"
 
-#include <filesystem>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "bench/method_style.hpp"
 #include <seam/error.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
 namespace {
 
-// Runs a program in a folder, its output in a log there; its exit status, 127 where it is not there.
-int run_in(const std::string& folder, std::vector<std::string> arguments, const std::string& log) {
+// A file that is open, until the end of its life.
+class OpenFile {
+ public:
+  OpenFile(std::FILE* file, const std::string& path) : file_(file) {
+    if (!file_) throw Error(path, std::string("cannot be opened: ") + std::strerror(errno));
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() { std::fclose(file_); }
+  std::FILE* get() const { return file_; }
+
+ private:
+  std::FILE* file_;
+};
+
+// Runs a program in a folder; its exit status, 127 where it is not there.
+int run_in(const std::string& folder, std::vector<std::string> arguments, const OpenFile& output,
+           const OpenFile& errors) {
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
+  sigset_t none;
+  sigemptyset(&none);
   const pid_t child = fork();
   if (child < 0) throw Error(folder, "no process for " + arguments[0]);
   if (child == 0) {
-    const int output =
-        chdir(folder.c_str()) == 0 ? open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644) : -1;
-    if (output < 0) _exit(126);
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
+    dup2(fileno(output.get()), STDOUT_FILENO);
+    dup2(fileno(errors.get()), STDERR_FILENO);
     close(STDIN_FILENO);
+    pthread_sigmask(SIG_SETMASK, &none, nullptr);
+    if (chdir(folder.c_str()) != 0) _exit(126);
     execvp(argv[0], argv.data());
     _exit(127);
   }
@@ -39,16 +58,17 @@ int run_in(const std::string& folder, std::vector<std::string> arguments, const 
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-std::string first_line_with_text(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  while (std::getline(file, line))
-    if (line.find_first_not_of(" \t^") != std::string::npos) return line;
+std::string first_line_with_text(const OpenFile& file) {
+  std::rewind(file.get());
+  char line[300];
+  while (std::fgets(line, sizeof line, file.get())) {
+    line[std::strcspn(line, "\n")] = '\0';
+    if (line[std::strspn(line, " \t^")] != '\0') return line;
+  }
   return "it left no picture";
 }
 
 bool is_whole_png(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;
   std::ifstream file(path, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
   return bytes.size() > 100 && bytes.substr(bytes.size() - 8, 4) == "IEND";
@@ -57,8 +77,8 @@ bool is_whole_png(const std::string& path) {
 }  // namespace
 
 void require_gnuplot() {
-  const std::string log = "/dev/null";
-  if (run_in(".", {"gnuplot", "--version"}, log) != 0)
+  const OpenFile nowhere(std::fopen("/dev/null", "w"), "/dev/null");
+  if (run_in(".", {"gnuplot", "--version"}, nowhere, nowhere) != 0)
     throw Error("gnuplot", "cannot be run, it is needed for the pictures (Debian: gnuplot-nox)");
 }
 
@@ -88,20 +108,18 @@ std::string preamble(int width, int height) {
       width, height);
 }
 
+// gnuplot is given the picture's open file, so that it leaves none where it goes on alone.
 void draw(const std::string& folder, const std::string& name, const std::string& script) {
   write_whole(folder + "/" + name + ".gnuplot", script);
-  const std::string part = name + ".png.part";
-  const int status = run_in(folder, {"gnuplot", "-c", name + ".gnuplot", part}, "gnuplot.log");
   const std::string picture = folder + "/" + name + ".png";
-  if (status == 0 && is_whole_png(folder + "/" + part)) {
-    std::filesystem::rename(folder + "/" + part, picture);
-    std::filesystem::remove(folder + "/gnuplot.log");
-    return;
-  }
-  const std::string reason = first_line_with_text(folder + "/gnuplot.log");
-  std::filesystem::remove(folder + "/" + part);
-  std::filesystem::remove(folder + "/gnuplot.log");
-  throw Error(picture, "gnuplot cannot draw it: " + reason);
+  PartFile part(picture);
+  const OpenFile output(std::fopen(part.name().c_str(), "r+e"), picture);
+  const OpenFile errors(std::tmpfile(), "temporary file");
+  const int status =
+      run_in(folder, {"gnuplot", "-c", name + ".gnuplot", "/dev/stdout"}, output, errors);
+  if (status != 0 || !is_whole_png(part.name()))
+    throw Error(picture, "gnuplot cannot draw it: " + first_line_with_text(errors));
+  part.finish();
 }
 
 }  // namespace seam

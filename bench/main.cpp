@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bench/commands.hpp"
+#include "bench/interrupt.hpp"
 #include <seam/error.hpp>
 
 namespace {
@@ -33,5 +34,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  seam::clear_up_when_interrupted();
   return run(argc, argv);
 }

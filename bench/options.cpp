@@ -25,4 +25,14 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
       ->allow_extra_args(false);
 }
 
+void add_allow_option(CLI::App& command, std::vector<std::string>& folders) {
+  command
+      .add_option(
+          "--allow", folders,
+          "a folder of which files may be named, beside that of the file which names them and "
+          "what is below it; may be repeated")
+      ->allow_extra_args(false)
+      ->check(CLI::ExistingDirectory);
+}
+
 }  // namespace seam

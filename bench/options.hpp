@@ -13,5 +13,6 @@ namespace seam {
 int all_cores();  // the default of `--jobs`
 void add_jobs_option(CLI::App& command, int& jobs);
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+void add_allow_option(CLI::App& command, std::vector<std::string>& folders);
 
 }  // namespace seam

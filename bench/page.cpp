@@ -17,7 +17,7 @@
 #include "bench/page_template.hpp"
 #include <seam/error.hpp>
 #include <seam/recording.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 

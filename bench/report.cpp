@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/columns.hpp"
+#include "bench/figure.hpp"
 #include "bench/run_json.hpp"
 #include <seam/error.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
@@ -69,11 +70,19 @@ void make_folder(const std::filesystem::path& dir) {
   if (status) throw Error(dir.string(), "cannot be made: " + status.message());
 }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code status;
+  std::filesystem::remove(path, status);
+  if (status) throw Error(path.string(), "cannot be replaced: " + status.message());
+}
+
 }  // namespace
 
 void write_results(const std::vector<Comparison>& comparisons, const std::string& seam_version,
                    const std::string& dir) {
   const std::filesystem::path results = dir;
+  make_folder(results);
+  for (const char* last : {"summary.json", "report.html"}) remove_file(results / last);
   std::string tables;
   for (const Comparison& comparison : comparisons) {
     const std::filesystem::path folder = results / comparison.scene.name;
@@ -83,6 +92,7 @@ void write_results(const std::vector<Comparison>& comparisons, const std::string
       run.recording.write(beside + ".csv");
       run.replay.write(beside + ".replay.json");
     }
+    draw_figures(comparison, dir);
     tables += (tables.empty() ? "" : "\n") + comparison.scene.title + " (`" +
               comparison.scene.name + "`):\n\n" + table(comparison);
   }

@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/options.hpp"
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 #include <seam/sequence_file.hpp>
 #include <seam/sequencer.hpp>
@@ -21,6 +23,7 @@ struct Options {
   std::string sequence;
   std::string method;
   std::string out;
+  std::vector<std::string> allowed;
   double dt = 1e-3;       // [s]
   double settle = 1.0;    // [s]
   double duration = 0.0;  // [s] 0: until the last switch and `settle`
@@ -77,7 +80,7 @@ void print_joins(const Sequencer& sequencer, const std::vector<std::string>& nam
 
 void roll_out(const Options& options) {
   const Join method = join_from_name(options.method);
-  const SequenceFile file = read_sequence(options.sequence);
+  const SequenceFile file = read_sequence(options.sequence, with_own_folders(options.allowed));
   Sequencer sequencer(file.sequence, method, file.start_state());
   const std::vector<double> rows = play(sequencer, options);
   Table table{columns_for(file.sequence.coordinates()), {}};
@@ -108,6 +111,7 @@ void add_rollout_command(CLI::App& app) {
   command
       .add_option("--duration", options->duration, "[s] of it all, whatever has happened by then")
       ->check(CLI::Range(1e-6, 36000.0));
+  add_allow_option(command, options->allowed);
   command.add_option("-o,--out", options->out, "recording (CSV) to write")->required();
   command.callback([options] { roll_out(*options); });
 }

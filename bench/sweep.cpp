@@ -68,9 +68,9 @@ std::string without_folder(std::string text, const std::string& scene) {
 
 }  // namespace
 
-Sweep::Sweep(std::string scene, std::vector<std::string> overrides, SweepPlan plan,
-             const std::string& seam_version)
-    : scene_(std::move(scene)), overrides_(std::move(overrides)) {
+Sweep::Sweep(std::string scene, std::vector<std::string> overrides,
+             std::vector<std::string> allowed, SweepPlan plan, const std::string& seam_version)
+    : scene_(std::move(scene)), overrides_(std::move(overrides)), allowed_(std::move(allowed)) {
   plan.check();
   contents_.plan = std::move(plan);
   probe();
@@ -94,7 +94,7 @@ void Sweep::probe() {
   const std::int64_t tries = std::min(probes, samples);
   std::optional<Error> first;
   for (std::int64_t i = 0; i < tries; ++i) try {
-      Scene scene = Scene::read(scene_, overrides_of(i * samples / tries));
+      Scene scene = Scene::read(scene_, overrides_of(i * samples / tries), allowed_);
       scene.duration = probe_ticks * scene.dt;
       for (const Column& column : columns(seam::play(scene, Join::dmp2, scene.dt)))
         contents_.metrics.push_back(column.name);
@@ -123,7 +123,7 @@ std::string Sweep::play(std::int64_t sample) const {
   const std::vector<Join>& methods = contents_.plan.methods;
   std::string rows;
   try {
-    const Scene scene = Scene::read(scene_, overrides_of(sample));
+    const Scene scene = Scene::read(scene_, overrides_of(sample), allowed_);
     const auto comparisons = compare({scene}, methods, 1, [](int, int, const std::string&) {});
     for (const Run& run : comparisons.front().runs) {
       std::map<std::string, std::string> figures;

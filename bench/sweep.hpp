@@ -13,10 +13,11 @@ namespace seam {
 class Sweep {
  public:
   /// @param overrides  set anew in every variant, before the varied keys
+  /// @param allowed    folders of which the scene may name files, see Scene::read
   /// @throws Error  the plan is not good (SweepPlan::check), or none of up to 64 samples from all over it can be played: a key
   ///                that the scene does not know, say
-  Sweep(std::string scene, std::vector<std::string> overrides, SweepPlan plan,
-        const std::string& seam_version);
+  Sweep(std::string scene, std::vector<std::string> overrides, std::vector<std::string> allowed,
+        SweepPlan plan, const std::string& seam_version);
 
   /// What the file of a shard holds. Of the files that the scene names all but meshes are told apart by their content.
   SweepContents contents(const Shard& shard) const;
@@ -29,7 +30,7 @@ class Sweep {
   void probe();
 
   std::string scene_;
-  std::vector<std::string> overrides_;
+  std::vector<std::string> overrides_, allowed_;
   SweepContents contents_;
 };
 

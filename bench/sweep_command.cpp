@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::string scene;
-  std::vector<std::string> vary, overrides, methods, merge;
+  std::vector<std::string> vary, overrides, allowed, methods, merge;
   std::optional<std::int64_t> samples;
   std::uint64_t seed = 1;
   std::string shard = "0/1";
@@ -71,7 +71,8 @@ class Bar {
 
 void sweep(const Options& options) {
   const Shard shard = Shard::read(options.shard);
-  const Sweep sweep(scene_file(options.scene), options.overrides, read_plan(options), SEAM_VERSION);
+  const Sweep sweep(scene_file(options.scene), options.overrides, options.allowed,
+                    read_plan(options), SEAM_VERSION);
   const SweepContents contents = sweep.contents(shard);
   SweepFile file(options.out, contents);
   const std::int64_t before = file.done();
@@ -113,6 +114,7 @@ void add_what(CLI::App& command, Options& options) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
   command.add_option("--seed", options.seed, "of what is drawn")->capture_default_str();
   add_set_option(command, options.overrides);
+  add_allow_option(command, options.allowed);
   command
       .add_option("--method", options.methods,
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include <seam/error.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 

@@ -4,6 +4,8 @@ namespace seam {
 
 namespace {
 
+constexpr int most_grains = 1000;
+
 LiquidSettings read_liquid_settings(const YamlEntry& entry) {
   LiquidSettings liquid;
   const auto set = [&](const char* key, double& value) {
@@ -34,7 +36,7 @@ VesselSettings read_vessel(const YamlEntry& entry, const char* where) {
 GrainSettings read_grains(const YamlEntry& entry) {
   entry.only({"count", "radius", "mass", "friction", "restitution", "frozen"});
   GrainSettings grains;
-  if (const auto count = entry.find("count")) grains.count = count->count(1);
+  if (const auto count = entry.find("count")) grains.count = count->count(1, most_grains);
   if (const auto radius = entry.find("radius")) grains.radius = radius->positive();
   if (const auto mass = entry.find("mass")) grains.mass = mass->positive();
   if (const auto friction = entry.find("friction")) grains.friction = friction->not_negative();

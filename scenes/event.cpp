@@ -22,7 +22,7 @@ Eigen::VectorXd read_goal(const YamlEntry& entry, const std::vector<std::string>
 }
 
 constexpr const char* kinds = "must have one of goal, tau, amplitude, rate, hand_over";
-constexpr double most_pictures = 1e5;
+constexpr double most_events = 1e5;
 
 Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordinates) {
   entry.only({"at", "goal", "tau", "amplitude", "rate", "over", "hand_over"});
@@ -57,7 +57,7 @@ void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates, 
   const double to = entry.at("to").not_negative();
   const double every = entry.at("every").positive();
   if (to < from) entry.at("to").fail(entry.at("to").text() + ", must be >= from");
-  if ((to - from) / every > most_pictures) entry.at("every").fail("gives more than 1e5 events");
+  if ((to - from) / every > most_events) entry.at("every").fail("gives more than 1e5 events");
   const Eigen::VectorXd goal = read_goal(entry.at("goal"), coordinates);
   Eigen::VectorXd velocity = Eigen::VectorXd::Zero(goal.size());
   if (const auto moving = entry.find("velocity")) {
@@ -103,6 +103,7 @@ std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::st
       watch(item, coordinates, noise, events);
     else
       events.push_back(read_event(item, coordinates));
+    if (static_cast<double>(events.size()) > most_events) item.fail("more than 1e5 events");
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.at < b.at; });

@@ -9,7 +9,7 @@
 
 #include "scenes/base64.hpp"
 #include <seam/error.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
               "tracks are written as they lie in memory");

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 
 #include "plugin/files/src/sequence_entry.hpp"
 #include "scenes/contents.hpp"
+#include "scenes/own_folders.hpp"
 #include "scenes/reality.hpp"
 #include <seam/controller.hpp>
 #include <seam/error.hpp>
@@ -18,11 +18,13 @@ namespace seam {
 namespace {
 
 constexpr double most_seconds = 3600.0;
+constexpr double most_ticks = 1e7;
 
 void read_robot(const YamlEntry& entry, Scene& scene) {
   entry.only({"urdf", "start"});
   const YamlEntry urdf = entry.at("urdf");
-  scene.robot = at_key(urdf, [&] { return RobotModel::read(urdf.path()); });
+  const std::string path = urdf.path();
+  scene.robot = at_key(urdf, [&] { return RobotModel::read(path); });
   scene.start = scene.robot.neutral();
   const auto start = entry.find("start");
   if (!start) return;
@@ -86,6 +88,12 @@ double at_most(const YamlEntry& entry, double seconds) {
   return seconds;
 }
 
+double read_speed(const YamlEntry& entry) {
+  const double speed = entry.positive();
+  if (speed < 1e-3 || speed > 1e3) entry.fail(entry.text() + ", must be in 0.001 to 1000");
+  return speed;
+}
+
 double read_duration(const YamlEntry& root, const Sequence& sequence) {
   const auto settle = root.find("settle");
   if (const auto duration = root.find("duration")) {
@@ -96,11 +104,6 @@ double read_duration(const YamlEntry& root, const Sequence& sequence) {
     root.at("sequence")
         .fail("has no end that is known beforehand, or one beyond 3600 s: needs the key duration");
   return sequence.duration() + (settle ? at_most(*settle, settle->not_negative()) : 1.0);
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
@@ -164,8 +167,9 @@ int Scene::ticks(double step) const {
   return static_cast<int>(std::lround(duration / step));
 }
 
-Scene Scene::read(const std::string& path, const std::vector<std::string>& overrides) {
-  const YamlEntry root = YamlEntry::read(path, overrides);
+Scene Scene::read(const std::string& path, const std::vector<std::string>& overrides,
+                  const std::vector<std::string>& allowed) {
+  const YamlEntry root = YamlEntry::read(path, overrides, with_own_folders(allowed));
   root.require_format("seam-scene", 1);
   root.only({"format",      "title",  "robot",   "tool",     "liquid",   "pouring",
              "sequence",    "events", "control", "actuator", "friction", "sensors",
@@ -174,7 +178,7 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
-  scene.text = text_of(path);
+  scene.text = root.file_text();
   scene.overrides = overrides;
   read_robot(root.at("robot"), scene);
   const auto tool = root.find("tool");
@@ -200,7 +204,9 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
     scene.events = read_events(*events, scene.sequence.coordinates(), scene.seed);
   scene.duration = read_duration(root, scene.sequence);
   if (const auto speed = root.find("speed"))
-    at_key(*speed, [&] { hasten(speed->positive(), scene); });
+    at_key(*speed, [&] { hasten(read_speed(*speed), scene); });
+  if (!(scene.duration <= most_ticks * scene.dt))
+    root.fail("has more than 1e7 ticks, must be shorter, or its dt longer");
   if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);
   if (const auto table = root.find("table")) scene.table = read_table(*table);
   const YamlEntry figure = root.at("figure");

@@ -68,9 +68,11 @@ struct Scene {
   ControllerSettings controller() const;
 
   /// Reads a scene file (the format is explained in scenes/README.md), in which some entries are set anew: see
-  /// YamlEntry::read.
+  /// YamlEntry::read. It may name files in its own folder and below, in seam's own scenes and assets, and in those of
+  /// further folders that are allowed.
   /// @throws Error  names file, line and key
-  static Scene read(const std::string& path, const std::vector<std::string>& overrides = {});
+  static Scene read(const std::string& path, const std::vector<std::string>& overrides = {},
+                    const std::vector<std::string>& allowed = {});
 };
 
 }  // namespace seam

@@ -150,6 +150,12 @@ TEST(Demonstration, RefusesBadFiles) {
             ":1: no column \"vel.b\", must be there as \"vel.a\" is");
   EXPECT_EQ(message("time,a,acc.q\n0,0,0\n"),
             ":1: column \"acc.q\": no coordinate \"q\", must have one");
+  EXPECT_EQ(message("time,a\n-1.7e308,0\n-1e308,0\n0,0\n1e308,0\n1.7e308,0\n"),
+            ": lasts inf s, must be in 1e-06 to 1e+09");
+  EXPECT_EQ(message("time,a\n0,0\n1e-323,0\n2e-323,0\n3e-323,0\n4e-323,0\n"),
+            ": lasts 3.95253e-323 s, must be in 1e-06 to 1e+09");
+  EXPECT_EQ(message("time,a\n0,0\n1,0\n2,0\n3,-2e300\n4,0\n"),
+            ": a position is -2e+300, must be in -1e+30 to 1e+30");
 }
 
 TEST(Demonstration, RefusesBadSettingsAndSamples) {

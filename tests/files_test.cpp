@@ -13,6 +13,7 @@ namespace {
 
 using test::BadFile;
 using test::replaced;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -282,7 +283,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(PrimitiveFile, RefusesWhatIsNotAFile) {
   const TempFolder folder;
   EXPECT_EQ(test::refusal([&] { read_primitive(folder.path("none.yaml")); }),
-            folder.path("none.yaml") + ": cannot be read");
+            folder.path("none.yaml") + ": cannot be read: No such file or directory");
   EXPECT_THAT(test::refusal([&] { read_primitive(folder.path("")); }), HasSubstr("is a folder"));
   EXPECT_THAT(test::refusal([&] { read_primitive(folder.write("empty.yaml", "")); }),
               HasSubstr("must be a map"));
@@ -636,6 +637,97 @@ TEST(SequenceFile, RefusesPrimitivesOfDifferentCoordinates) {
   EXPECT_THAT(
       test::refusal([&] { read_sequence(folder.write("bad.yaml", good_sequence)); }),
       HasSubstr("bad.yaml:12: key \"play\": sequence: primitive 2: its coordinates differ"));
+}
+
+// A folder `mine` with a sequence in it, and a demonstration beside.
+struct Neighbours : TempFolder {
+  Neighbours() {
+    write_parts(*this);
+    std::filesystem::create_directory(path("mine"));
+    std::filesystem::create_symlink("../ramp.csv", path("mine/link.csv"));
+    std::filesystem::create_directory_symlink("../parts", path("mine/parts"));
+  }
+  SequenceFile read(const std::string& demonstration,
+                    const std::vector<std::string>& allowed = {}) const {
+    const std::string text =
+        "format: seam-sequence 1\nprimitives:\n  a: {demonstration: " + demonstration +
+        "}\nsteps: [{play: a}]\n";
+    return read_sequence(write("mine/task.yaml", text), allowed);
+  }
+};
+
+TEST(SequenceFile, NamesFilesOfItsOwnFolderAlone) {
+  const Neighbours folder;
+  std::filesystem::create_directory(folder.path("mine/below"));
+  std::filesystem::copy(folder.path("ramp.csv"), folder.path("mine/below/ramp.csv"));
+  EXPECT_EQ(folder.read("below/ramp.csv").primitives.size(), 1U);
+  EXPECT_EQ(folder.read("../mine/below/../below/ramp.csv").primitives.size(), 1U);
+  EXPECT_EQ(folder.read(folder.path("mine/below/ramp.csv")).primitives.size(), 1U);
+  for (const std::string& out :
+       {std::string("../ramp.csv"), folder.path("ramp.csv"), std::string("link.csv"),
+        std::string("parts/reach.yaml"), std::string("/dev/zero"), std::string("../nothing.csv"),
+        std::string("..")})
+    EXPECT_EQ(test::refusal([&] { folder.read(out); }),
+              folder.path("mine/task.yaml") + ":3: key \"demonstration\": \"" + out +
+                  "\" leads out of the file's folder, must be in it or below, or in a folder that "
+                  "is allowed (seam --allow DIR)");
+}
+
+TEST(SequenceFile, NamesFilesOfFoldersThatAreAllowed) {
+  const Neighbours folder;
+  EXPECT_EQ(folder.read("../ramp.csv", {folder.path("")}).primitives.size(), 1U);
+  EXPECT_EQ(folder.read("link.csv", {"/"}).primitives.size(), 1U);
+  EXPECT_THAT(test::refusal([&] {
+                folder.read("../ramp.csv", {folder.path("parts"), folder.path("ra")});
+              }),
+              HasSubstr("leads out of the file's folder"));
+}
+
+std::string many(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+std::string refusal_of(const std::string& text) {
+  const TempFolder folder;
+  const std::string path = folder.write("bad.yaml", text);
+  return test::refusal([&] { read_sequence(path); }).substr(path.size());
+}
+
+TEST(YamlFile, IsRefusedBeyondWhatAPersonWrites) {
+  EXPECT_EQ(refusal_of(many("[", 5000)), ":1: more than 32 levels");
+  EXPECT_EQ(refusal_of(many("- ", 5000)), ":1: more than 32 levels");
+  EXPECT_EQ(refusal_of("a: [" + many("1,", 200000) + "]"), ":1: more than 200000 values");
+  EXPECT_EQ(refusal_of("a: \"" + std::string(4 << 20, 'x') + "\""), ": is larger than 4 MiB");
+}
+
+TEST(YamlFile, CountsWhatAliasesRepeat) {
+  std::string bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 9; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1);
+    const std::string name = "a" + std::to_string(i);
+    bomb += name + ": &" + name + " [" + many(last + ", ", 9) + last + "]\n";
+  }
+  EXPECT_EQ(refusal_of(bomb), ":6: more than 200000 values");
+  EXPECT_EQ(refusal_of("format: &f [*f]"), ":1: an alias repeats what it is a part of");
+  const TempFolder folder;
+  const std::string twice =
+      replaced(replaced(good_primitive, "[1.5, 20]", "&row [1.5, 20]"), "[-30, 4]", "*row");
+  EXPECT_EQ(read_primitive(folder.write("a.yaml", twice)).weights(1, 1), 20.0);
+}
+
+TEST(SequenceFile, AsksForNoMoreWorkThanSeconds) {
+  const Neighbours folder;
+  EXPECT_THAT(test::refusal([&] { folder.read("../ramp.csv, kernels: 1001", {"/"}); }),
+              EndsWith("key \"kernels\": 1001, must be <= 1000"));
+  std::string rows = "time,x\n";
+  for (int i = 0; i < 30000; ++i) rows += std::to_string(i) + ",0\n";
+  folder.write("mine/long.csv", rows);
+  EXPECT_THAT(test::refusal([&] { folder.read("long.csv, kernels: 1000"); }),
+              HasSubstr("30000 samples with up to 1000 kernels are too much work"));
+  EXPECT_THAT(test::refusal([&] { folder.read("long.csv, precision: 0.1"); }),
+              HasSubstr("30000 samples with up to 100 kernels are too much work"));
 }
 
 }  // namespace

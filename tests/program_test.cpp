@@ -86,14 +86,17 @@ TEST(Program, SaysSoBeforeItPlaysWhereThereIsNoGnuplot) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(Program, LeavesNoPictureWhereTheDiskIsFull) {
+TEST(Program, LeavesNoPictureWhereGnuplotLeavesHalfOfOne) {
   const TempFolder folder;
-  std::filesystem::create_directories(folder.path("r/line"));
-  std::filesystem::create_symlink("/dev/full", folder.path("r/line/line.png.part"));
-  const Outcome outcome = run("run line --method dmp2 --out " + folder.path("r"));
+  const std::string gnuplot =
+      folder.write("gnuplot", "#!/bin/sh\n[ $1 = --version ] || printf PNG > $3\n");
+  std::filesystem::permissions(gnuplot, std::filesystem::perms::owner_all);
+  const Outcome outcome =
+      run("run line --method dmp2 --out " + folder.path("r"), "PATH=" + folder.path("") + ":$PATH");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.output, HasSubstr("line.png: gnuplot cannot draw it"));
   EXPECT_FALSE(std::filesystem::exists(folder.path("r/line/line.png")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("r/line/line.png.part")));
 }
 
 // The table in the README is what the bench leaves, but for pouring, whose grains follow the last bit of a machine's
@@ -151,6 +154,30 @@ TEST(Program, HelpsWithExitCodeZero) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << arguments;
     EXPECT_FALSE(outcome.output.empty()) << arguments;
+  }
+}
+
+TEST(Program, ReadsFilesBesideASceneWhereTheirFolderIsAllowed) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path("demos"));
+  std::filesystem::copy(SEAM_ASSETS "/demos/ramp_up.csv", folder.path("demos/up.csv"));
+  const std::string scene = folder.write(
+      "mine/my.yaml", test::replaced(test::scene_text("line"), SEAM_ASSETS "/demos/ramp_up.csv",
+                                     "../demos/up.csv"));
+  const std::string task = folder.write("mine/task.yaml",
+                                        "format: seam-sequence 1\nprimitives: {a: {demonstration: "
+                                        "../demos/up.csv}}\nsteps: [{play: a}]\n");
+  const std::string calls[] = {
+      "bench --list " + scene, "rollout " + task + " --method dmp3 -o " + folder.path("a.csv"),
+      "sweep " + scene + " --method dmp2 --vary dt=0.01 --out " + folder.path("b.csv")};
+  for (const std::string& call : calls) {
+    const Outcome outcome = run(call);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(
+        outcome.output,
+        HasSubstr("\"../demos/up.csv\" leads out of the file's folder, must be in it or below, "
+                  "or in a folder that is allowed (seam --allow DIR)\n"));
+    EXPECT_EQ(run(call + " --allow " + folder.path("demos")).status, 0) << call;
   }
 }
 

@@ -248,6 +248,8 @@ const Refused refusals[] = {
     {"MeshFromTheNet", shape("visual", R"(<mesh filename="http://x/no.obj"/>)"),
      R"(x.urdf: link "a": visual: mesh "http://x/no.obj" not found, must be package://, file:// or )"
      "a path"},
+    {"MeshOfTwoLines", shape("visual", "<mesh filename=\"a&#10;b\"/>"),
+     R"(x.urdf: link "a": visual: mesh "a b" not found, looked for a b)"},
     {"MeshIsAFolder", shape("visual", R"(<mesh filename="."/>)"),
      R"(x.urdf: link "a": visual: mesh "." not found, looked for )"},
     {"MeshWithoutScale", shape("visual", R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),
@@ -348,6 +350,19 @@ TEST(RobotModel, TurnsInertiaGivenInARotatedFrame) {
              Eigen::Matrix3d(Vector3d(1, 1, 0).asDiagonal()))
                 .norm(),
             1e-15);
+}
+
+// One behind the other: deeper than a stack would bear.
+TEST(RobotModel, RefusesMoreJointsThanAnyRobotHas) {
+  const auto chain = [](int joints) {
+    std::string content = link("0", "");
+    for (int i = 1; i <= joints; ++i)
+      content += link(std::to_string(i), "") +
+                 joint(std::to_string(i), "fixed", std::to_string(i - 1), std::to_string(i), "");
+    return robot(content);
+  };
+  EXPECT_EQ(read(chain(1000)).frames.size(), 1001U);
+  EXPECT_EQ(refusal(chain(20000)), "x.urdf: 20000 joints, must be <= 1000");
 }
 
 TEST(RobotModel, TakesAnInertialWithoutMassForNone) {

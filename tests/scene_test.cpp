@@ -220,6 +220,36 @@ INSTANTIATE_TEST_SUITE_P(
         BadOverride{"NoTimeAtAll", "speed=1e12", "key \"speed\": "}),
     test::by_name);
 
+TEST(Scene, NamesFilesOfItsOwnFolderOfSeamsAssetsAndOfFoldersThatAreAllowed) {
+  const TempFolder folder;
+  const std::string scene = folder.write("mine/my.yaml", test::scene_text("line"));
+  EXPECT_EQ(Scene::read(scene).robot.name, "pa10");
+  folder.write("robots/arm.urdf", test::read_file(SEAM_TEST_DATA "/planar_arm.urdf"));
+  const std::vector<std::string> other{"robot={urdf: ../robots/arm.urdf}"};
+  EXPECT_EQ(test::refusal([&] { Scene::read(scene, other); }),
+            scene +
+                ":1: key \"urdf\": \"../robots/arm.urdf\" leads out of the file's folder, must be "
+                "in it or below, or in a folder that is allowed (seam --allow DIR)");
+  EXPECT_THAT(test::refusal([&] { Scene::read(scene, other, {folder.path("robots")}); }),
+              HasSubstr("no joint \"E1\""));
+}
+
+TEST(Scene, AsksForNoMoreThanAMachineHas) {
+  EXPECT_THAT(test::refusal([] {
+                Scene::read(line, {"dt=1e-6", "settle=3600"});
+              }),
+              HasSubstr("more than 1e7 ticks"));
+  EXPECT_THAT(test::refusal([] {
+                Scene::read(line, {"events=[{from: 0, to: 10, every: 1.0e-4, goal: {E1: 1}}, "
+                                   "{from: 0, to: 10, every: 1.0e-3, goal: {E1: 1}}]"});
+              }),
+              HasSubstr("more than 1e5 events"));
+  EXPECT_THAT(test::refusal([] {
+                Scene::read(SEAM_SCENES "/pouring.yaml", {"pouring.grains.count=100000"});
+              }),
+              HasSubstr("key \"count\": 100000, must be <= 1000"));
+}
+
 TEST(Scene, RefusesWhatIsNotAFile) {
   const TempFolder folder;
   EXPECT_THAT(test::refusal([&] { Scene::read(folder.path("none.yaml")); }),

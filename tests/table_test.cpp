@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -77,26 +76,6 @@ TEST(Table, RefusesWhatIsNotAFile) {
   EXPECT_THAT(refusal([&] { Table::read(folder.path("none.csv")); }),
               EndsWith("No such file or directory"));
   EXPECT_THAT(refusal([&] { Table::read(folder.path("")); }), HasSubstr("is a folder"));
-}
-
-TEST(WriteWhole, WritesToADeviceAndLeavesItThere) {
-  write_whole("/dev/null", "text");
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
-  EXPECT_THAT(test::refusal([] { write_whole("/dev/full", std::string(1 << 16, 'x')); }),
-              testing::HasSubstr("/dev/full: cannot be written: No space left"));
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
-}
-
-TEST(WriteWhole, LeavesWhatWasThereWhenTheDiskIsFull) {
-  EXPECT_THAT(refusal([] { write_whole("/dev/full/x", "text"); }),
-              StartsWith("/dev/full/x: cannot be written"));
-  const TempFolder folder;
-  folder.write("kept.csv", "old");
-  std::filesystem::create_symlink("/dev/full", folder.path("kept.csv.part"));
-  EXPECT_THAT(refusal([&] { write_whole(folder.path("kept.csv"), std::string(100000, 'x')); }),
-              HasSubstr("No space left on device"));
-  EXPECT_EQ(test::read_file(folder.path("kept.csv")), "old");
-  EXPECT_FALSE(std::filesystem::exists(folder.path("kept.csv.part")));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "bench/markdown.hpp"
 #include "bench/micro/benchmarks.hpp"
 #include "bench/micro/pair.hpp"
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam::micro {
 

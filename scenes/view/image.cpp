@@ -6,7 +6,7 @@
 #include <png.h>
 
 #include <seam/error.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -53,11 +52,9 @@ bool Movie::is_movie(const std::string& path) {
   return !encoder(ending_of(path)).empty();
 }
 
-Movie::Movie(std::string path, int width, int height, double rate)
-    : path_(std::move(path)), part_(path_ + ".part") {
+Movie::Movie(std::string path, int width, int height, double rate) : path_(std::move(path)) {
   if (!is_movie(path_)) throw Error(path_, "must end with .mp4, .webm or .webp");
-  if (!std::ofstream(part_))
-    throw Error(path_, std::string("cannot be written: ") + std::strerror(errno));
+  part_.emplace(path_);
   log_ = std::tmpfile();
   if (!log_) throw Error(path_, std::string("no temporary file: ") + std::strerror(errno));
   std::signal(SIGPIPE, SIG_IGN);
@@ -74,21 +71,31 @@ void Movie::start(int width, int height, double rate) {
               "-i",       "-",
               "-an"};
   for (const std::string& word : encoder(ending_of(path_))) words.push_back(word);
-  words.push_back("file:" + part_);
+  words.push_back("file:/dev/stdout");
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
+  // The part's open file, so that ffmpeg leaves none where it goes on alone.
+  const int output = open(part_->name().c_str(), O_RDWR | O_CLOEXEC);
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(path_, std::strerror(errno));
+  if (output < 0 || pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(path_, std::strerror(errno));
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(log_), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(log_), STDERR_FILENO);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
   const int status =
-      posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+      posix_spawnp(&process_, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+  close(output);
   close(ends[0]);
   pipe_ = fdopen(ends[1], "wb");
   if (status == 0) return;
@@ -110,7 +117,8 @@ void Movie::finish() {
   std::fclose(std::exchange(pipe_, nullptr));
   int status = 0;
   waitpid(std::exchange(process_, 0), &status, 0);
-  if (!flushed || status != 0 || std::rename(part_.c_str(), path_.c_str()) != 0) fail();
+  if (!flushed || status != 0) fail();
+  part_->finish();
 }
 
 // Ends the program, if it still runs, and clears up.
@@ -119,7 +127,7 @@ int Movie::end() {
   if (pipe_) std::fclose(std::exchange(pipe_, nullptr));
   if (process_) waitpid(std::exchange(process_, 0), &status, 0);
   if (log_) std::fclose(std::exchange(log_, nullptr));
-  std::remove(part_.c_str());
+  part_.reset();
   return status;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "scenes/view/image.hpp"
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
@@ -30,7 +32,8 @@ class Movie {
   int end();
   [[noreturn]] void fail();
 
-  std::string path_, part_;
+  std::string path_;
+  std::optional<PartFile> part_;
   std::FILE* log_ = nullptr;
   std::FILE* pipe_ = nullptr;
   int process_ = 0;

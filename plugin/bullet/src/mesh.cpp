@@ -27,9 +27,7 @@ const aiScene* import(Assimp::Importer& importer, const std::string& path) {
   if (!std::filesystem::is_regular_file(path, status)) throw Error(path, "no such file");
   const aiScene* scene = importer.ReadFile(path, steps);
   if (scene && !(scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) return scene;
-  std::string reason = importer.GetErrorString();
-  std::replace(reason.begin(), reason.end(), '\n', ' ');
-  throw Error(path, "not a mesh that can be read: " + reason);
+  throw Error(path, std::string("not a mesh that can be read: ") + importer.GetErrorString());
 }
 
 /// assimp hands these formats over with Y up, whatever up-axis the file names.

@@ -1,10 +1,7 @@
 #include "urdf_document.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 #include <vector>
@@ -14,6 +11,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <seam/error.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 namespace {
@@ -36,12 +34,7 @@ class UrdfdomErrors final : public console_bridge::OutputHandler {
     text_ += (text_.empty() ? "" : "; ") + message;
   }
 
-  /// All of them in one line.
-  std::string text() const {
-    std::string line = text_;
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    return line;
-  }
+  const std::string& text() const { return text_; }
 
  private:
   static std::mutex& mutex() {
@@ -54,14 +47,14 @@ class UrdfdomErrors final : public console_bridge::OutputHandler {
   std::string text_;
 };
 
+constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 20;
+constexpr std::size_t most_joints =
+    1000;  // one behind the other they are read one within the other
+
 std::string read_text(const std::string& path) {
   std::error_code status;
   if (!std::filesystem::exists(path, status)) throw Error(path, "no such file");
-  if (std::filesystem::is_directory(path, status))
-    throw Error(path, "is a folder, must be a URDF file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path, "cannot be opened");
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string text = read_whole(path, "URDF file", most_bytes);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw Error(path, "is empty");
   return text;
 }
@@ -139,6 +132,9 @@ void check_tree(const std::string& path, const std::vector<JointElement>& joints
 UrdfDocument read_urdf(const std::string& path) {
   const std::string text = read_text(path);
   const std::vector<JointElement> joints = joint_elements(path, text);
+  if (joints.size() > most_joints)
+    throw Error(
+        path, std::to_string(joints.size()) + " joints, must be <= " + std::to_string(most_joints));
   check_tree(path, joints);
   UrdfDocument document;
   for (const JointElement& joint : joints)

@@ -2,10 +2,12 @@
 #include <cmath>
 #include <set>
 
+#include "shown.hpp"
 #include "smoothing_spline.hpp"
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>
 #include <seam/orientation.hpp>
+#include <seam/primitive.hpp>
 #include <seam/table.hpp>
 
 namespace seam {
@@ -40,6 +42,18 @@ void require_increasing(const Demonstration& demo) {
                                    std::to_string(demo.time(i)) + " s does not increase");
 }
 
+// Those of a primitive.
+void require_bounds(const Demonstration& demo) {
+  if (!tau_bounds.hold(demo.duration()))
+    throw Error(demo.source, "lasts " + shown(demo.duration()) + " s, must be in " +
+                                 shown(tau_bounds.least) + " to " + shown(tau_bounds.largest));
+  for (const double value : demo.position.reshaped())
+    if (!value_bounds.hold(value))
+      throw Error(demo.source, "a position is " + shown(value) + ", must be in " +
+                                   shown(value_bounds.least) + " to " +
+                                   shown(value_bounds.largest));
+}
+
 void require_positions(const Demonstration& demo) {
   const auto D = static_cast<Eigen::Index>(demo.coordinates.size());
   if (D == 0) throw Error(demo.source, "no coordinates");
@@ -54,6 +68,7 @@ void require_positions(const Demonstration& demo) {
   if (!demo.time.allFinite() || !demo.position.allFinite())
     throw Error(demo.source, "a time or position is not finite");
   require_increasing(demo);
+  require_bounds(demo);
 }
 
 // The columns whose names are the coordinates' behind a prefix; none of them is N × 0.

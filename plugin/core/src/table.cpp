@@ -1,29 +1,18 @@
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
+#include <string>
 #include <string_view>
 
 #include <seam/error.hpp>
 #include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
 namespace {
 
-std::string read_whole(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw Error(path, "is a folder, must be a CSV file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
-  std::ostringstream content;
-  content << file.rdbuf();
-  return content.str();
-}
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -100,7 +89,7 @@ void append_number(std::string& text, double value) {
 }  // namespace
 
 Table Table::read(const std::string& path) {
-  const std::string content = read_whole(path);
+  const std::string content = read_whole(path, "CSV file", most_bytes);
   std::string_view rest = content;
   if (trimmed(rest.substr(0, rest.find('\n'))).empty()) throw Error(path + ":1", "no header");
   Table table;
@@ -134,29 +123,6 @@ void Table::write(const std::string& path) const {
     text += '\n';
   }
   write_whole(path, text);
-}
-
-void write_whole(const std::string& path, const std::string& content) {
-  write_whole(path, [&](std::ostream& file) { file << content; });
-}
-
-void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  std::error_code ignored;
-  const bool in_place =
-      std::filesystem::is_character_file(path, ignored) || std::filesystem::is_fifo(path, ignored);
-  const std::string part = in_place ? path : path + ".part";
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  try {
-    write(file);
-  } catch (...) {
-    if (!in_place) std::remove(part.c_str());
-    throw;
-  }
-  file.close();
-  if (file && (in_place || std::rename(part.c_str(), path.c_str()) == 0)) return;
-  const std::string reason = std::strerror(errno);
-  if (!in_place) std::remove(part.c_str());
-  throw Error(path, "cannot be written: " + reason);
 }
 
 }  // namespace seam

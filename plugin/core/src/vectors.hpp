@@ -18,8 +18,8 @@ namespace seam {
 inline constexpr int lanes = 4;
 
 /// Four doubles, which may lie at any address; arithmetic is element by element.
-using Lanes = double __attribute__((vector_size(32), aligned(8), may_alias));
-using IntegerLanes = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
+using Lanes __attribute__((vector_size(32), aligned(8), may_alias)) = double;
+using IntegerLanes __attribute__((vector_size(32), aligned(8), may_alias)) = std::uint64_t;
 
 /// The next multiple of four.
 constexpr int padded(int size) {

@@ -7,6 +7,9 @@ namespace seam {
 
 namespace {
 
+constexpr int most_kernels = 1000;
+constexpr double most_work = 1e10;  // samples × kernels², some seconds
+
 Gains read_gains(const YamlEntry& entry) {
   entry.only({"K", "D", "H"});
   Gains gains = Gains::critical(entry.at("K").positive());
@@ -28,7 +31,8 @@ LearnSettings read_settings(const YamlEntry& entry) {
   if (const auto period = entry.find("period")) settings.period = period->positive();
   if (const auto method = entry.find("method")) settings.method = read_method(*method);
   if (const auto precision = entry.find("precision")) settings.precision = precision->positive();
-  if (const auto kernels = entry.find("kernels")) settings.kernels = kernels->count(2);
+  if (const auto kernels = entry.find("kernels"))
+    settings.kernels = kernels->count(2, most_kernels);
   if (const auto width = entry.find("width")) settings.width = width->positive();
   if (const auto alpha = entry.find("alpha")) settings.alpha = alpha->positive();
   if (const auto gains = entry.find("gains")) settings.gains = read_gains(*gains);
@@ -40,6 +44,18 @@ Demonstration read_demonstration(const std::string& path, const DerivativeSettin
   const Demonstration demo = Demonstration::read(path, derivatives);
   if (!has_orientation(demo)) return demo;
   return with_rotation_vector(demo, reference ? *reference : first_orientation(demo), derivatives);
+}
+
+// With a precision, every number of kernels up to theirs is tried with four widths.
+void require_bounded(const Demonstration& demo, const LearnSettings& settings) {
+  const bool tries = settings.precision > 0.0;
+  const int kernels = settings.kernels > 0 ? settings.kernels : tries ? 100 : 20;
+  const double work =
+      1.0 * demo.samples() * kernels * kernels * (tries ? 4.0 / 3.0 * kernels : 1.0);
+  if (work > most_work)
+    throw Error(demo.source, std::to_string(demo.samples()) + " samples with up to " +
+                                 std::to_string(kernels) +
+                                 " kernels are too much work, must be fewer");
 }
 
 }  // namespace
@@ -54,8 +70,11 @@ Primitive learn_primitive(const YamlEntry& entry,
   const auto faster = entry.find("speed");
   const double speed = faster ? faster->positive() : 1.0;
   const YamlEntry file = entry.at("demonstration");
+  const std::string path = file.path();
   return at_key(file, [&] {
-    return learn(read_demonstration(file.path(), derivatives, reference), settings).at_speed(speed);
+    const Demonstration demo = read_demonstration(path, derivatives, reference);
+    require_bounded(demo, settings);
+    return learn(demo, settings).at_speed(speed);
   });
 }
 

@@ -2,7 +2,7 @@
 #include "yaml_text.hpp"
 #include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 

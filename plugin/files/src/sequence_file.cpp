@@ -9,7 +9,7 @@
 #include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
 #include <seam/sequence_file.hpp>
-#include <seam/table.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
@@ -65,7 +65,8 @@ using Check = std::function<void(const Primitive&)>;
 Primitive read_named(const YamlEntry& entry, const Reference& reference) {
   if (const auto file = entry.find("file")) {
     entry.only({"file"});
-    return at_key(*file, [&] { return read_primitive(file->path()); });
+    const std::string path = file->path();
+    return at_key(*file, [&] { return read_primitive(path); });
   }
   if (entry.find("demonstration")) return learn_primitive(entry, reference);
   if (entry.find("weights")) return read_primitive(entry);
@@ -213,8 +214,8 @@ SequenceFile read_sequence(const YamlEntry& entry, const Check& check) {
   return file;
 }
 
-SequenceFile read_sequence(const std::string& path) {
-  const YamlEntry root = YamlEntry::read(path);
+SequenceFile read_sequence(const std::string& path, std::vector<std::string> allowed) {
+  const YamlEntry root = YamlEntry::read(path, {}, std::move(allowed));
   return read_sequence(root.require_format(format_name, format_version), nullptr);
 }
 

@@ -4,13 +4,14 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include <yaml-cpp/eventhandler.h>
 
 #include <seam/orientation.hpp>
+#include <seam/whole_file.hpp>
 
 namespace seam {
 
@@ -33,30 +34,69 @@ std::string listed(std::initializer_list<const char*> texts) {
   return list;
 }
 
-// Keys and values may hold line breaks, messages may not.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-  return text;
-}
+constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 20;
+constexpr std::size_t most_values = 200'000;
+constexpr std::size_t most_levels = 32;
 
-// Hears where documents begin, and nothing else.
-class Beginnings : public YAML::EventHandler {
+// Hears a file before it is loaded: where documents begin, how deep they are and how long if no alias were short for what it
+// repeats.
+class Survey : public YAML::EventHandler {
  public:
-  int last_line = 0;
+  explicit Survey(const std::string& path) : path_(path) {}
+
+  int last_line = 0;  // on which a document began
 
   void OnDocumentStart(const YAML::Mark& mark) override { last_line = mark.line; }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { value(mark, anchor); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto repeated = sizes_.find(anchor);
+    if (repeated == sizes_.end()) fail(mark, "an alias repeats what it is a part of");
+    add(repeated->second, mark);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                const std::string&) override {
+    value(mark, anchor);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    begin(mark, anchor);
+  }
+  void OnSequenceEnd() override { end(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    begin(mark, anchor);
+  }
+  void OnMapEnd() override { end(); }
+
+ private:
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
+    throw Error(path_ + ":" + std::to_string(mark.line + 1), what);
+  }
+  void add(std::size_t size, const YAML::Mark& mark) {
+    values_ += size;
+    if (values_ > most_values) fail(mark, "more than " + std::to_string(most_values) + " values");
+  }
+  void value(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    add(1, mark);
+    if (anchor) sizes_[anchor] = 1;
+  }
+  void begin(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    add(1, mark);
+    levels_.push_back({anchor, values_});
+    if (levels_.size() > most_levels)
+      fail(mark, "more than " + std::to_string(most_levels) + " levels");
+  }
+  void end() {
+    const auto [anchor, before] = levels_.back();
+    levels_.pop_back();
+    if (anchor) sizes_[anchor] = values_ - before + 1;
+  }
+
+  const std::string& path_;
+  std::size_t values_ = 0;
+  std::map<YAML::anchor_t, std::size_t> sizes_;
+  std::vector<std::pair<YAML::anchor_t, std::size_t>> levels_;  // and the values before
 };
 
 // YAML::Load drops what follows the first document (a stray bracket ends it, too), and YAML::LoadAll
@@ -64,11 +104,31 @@ class Beginnings : public YAML::EventHandler {
 YAML::Node only_document(const std::string& path, const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  Beginnings beginnings;
-  if (parser.HandleNextDocument(beginnings) && parser.HandleNextDocument(beginnings))
-    throw Error(path + ":" + std::to_string(beginnings.last_line + 1),
+  Survey survey(path);
+  if (parser.HandleNextDocument(survey) && parser.HandleNextDocument(survey))
+    throw Error(path + ":" + std::to_string(survey.last_line + 1),
                 "not part of the document, which ends before this");
   return YAML::Load(text);
+}
+
+namespace fs = std::filesystem;
+
+// Where a path leads when links are followed, as far as it is there; nothing where it leads nowhere.
+std::optional<fs::path> followed(const fs::path& path) {
+  std::error_code status;
+  const fs::path absolute = fs::absolute(path, status);
+  if (status || absolute.native().find('\0') != std::string::npos) return std::nullopt;
+  fs::path canonical = fs::weakly_canonical(absolute, status);
+  if (status) return std::nullopt;
+  return canonical;
+}
+
+bool is_in(const fs::path& path, const fs::path& folder) {
+  const auto inner = followed(path);
+  const auto outer = followed(folder.empty() ? "." : folder);
+  return inner && outer &&
+         std::mismatch(outer->begin(), outer->end(), inner->begin(), inner->end()).first ==
+             outer->end();
 }
 
 // The entry of a list or map; a new one where a map, or nothing, has none.
@@ -97,33 +157,32 @@ void set(YAML::Node node, const std::string& change) {
   try {
     node = YAML::Load(change.substr(equals + 1));
   } catch (const YAML::Exception& error) {
-    throw Error(change, one_line("the value is not YAML: " + error.msg));
+    throw Error(change, "the value is not YAML: " + error.msg);
   }
 }
 
 }  // namespace
 
-YamlEntry::YamlEntry(YAML::Node node, std::string file, std::string key, int line)
-    : node_(std::move(node)), file_(std::move(file)), key_(std::move(key)), line_(line) {}
+YamlEntry::YamlEntry(YAML::Node node, std::shared_ptr<const Source> source, std::string key,
+                     int line)
+    : node_(std::move(node)), source_(std::move(source)), key_(std::move(key)), line_(line) {}
 
-YamlEntry YamlEntry::read(const std::string& path, const std::vector<std::string>& overrides) {
-  if (std::filesystem::is_directory(path)) throw Error(path, "is a folder, must be a YAML file");
-  std::ifstream file(path);
-  if (!file) throw Error(path, "cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+YamlEntry YamlEntry::read(const std::string& path, const std::vector<std::string>& overrides,
+                          std::vector<std::string> allowed) {
+  const auto source = std::make_shared<const Source>(
+      Source{path, read_whole(path, "YAML file", most_bytes), std::move(allowed)});
   try {
-    const YAML::Node root = only_document(path, text);
+    const YAML::Node root = only_document(path, source->text);
     for (const std::string& change : overrides) set(root, change);
-    return {root, path, "", root.Mark().line};
+    return {root, source, "", root.Mark().line};
   } catch (const YAML::Exception& error) {
-    throw Error(path + ":" + std::to_string(error.mark.line + 1),
-                one_line("not YAML: " + error.msg));
+    throw Error(path + ":" + std::to_string(error.mark.line + 1), "not YAML: " + error.msg);
   }
 }
 
 void YamlEntry::fail(const std::string& what) const {
-  throw Error(line_ < 0 ? file_ : file_ + ":" + std::to_string(line_ + 1),
-              one_line((key_.empty() ? "" : "key \"" + key_ + "\": ") + what));
+  throw Error(line_ < 0 ? source_->path : source_->path + ":" + std::to_string(line_ + 1),
+              (key_.empty() ? "" : "key \"" + key_ + "\": ") + what);
 }
 
 const YamlEntry& YamlEntry::require_format(const std::string& name, int newest) const {
@@ -147,7 +206,7 @@ std::optional<YamlEntry> YamlEntry::find(const std::string& key) const {
   if (!node_.IsMap()) fail("must be a map");
   for (const auto& child : node_)
     if (child.first.Scalar() == key)
-      return YamlEntry(child.second, file_, key, child.first.Mark().line);
+      return YamlEntry(child.second, source_, key, child.first.Mark().line);
   return std::nullopt;
 }
 
@@ -160,18 +219,18 @@ YamlEntry YamlEntry::at(const std::string& key) const {
 std::vector<YamlEntry> YamlEntry::items() const {
   if (!node_.IsSequence() || node_.size() == 0) fail("must be a list with at least one entry");
   std::vector<YamlEntry> list;
-  for (const auto& child : node_) list.push_back({child, file_, key_, child.Mark().line});
+  for (const auto& child : node_) list.push_back({child, source_, key_, child.Mark().line});
   return list;
 }
 
 std::vector<std::pair<std::string, YamlEntry>> YamlEntry::entries() const {
   if (!node_.IsMap() || node_.size() == 0) fail("must be a map with at least one key");
   std::vector<std::pair<std::string, YamlEntry>> map;
+  std::set<std::string> seen;
   for (const auto& child : node_) {
     const std::string& key = child.first.Scalar();
-    YamlEntry entry(child.second, file_, key, child.first.Mark().line);
-    for (const auto& other : map)
-      if (other.first == key) entry.fail("appears twice");
+    YamlEntry entry(child.second, source_, key, child.first.Mark().line);
+    if (!seen.insert(key).second) entry.fail("appears twice");
     map.emplace_back(key, std::move(entry));
   }
   return map;
@@ -220,6 +279,12 @@ int YamlEntry::count(int least) const {
   return value;
 }
 
+int YamlEntry::count(int least, int most) const {
+  const int value = count(least);
+  if (value > most) fail(node_.Scalar() + ", must be <= " + std::to_string(most));
+  return value;
+}
+
 Eigen::VectorXd YamlEntry::numbers() const {
   const std::vector<YamlEntry> list = items();
   Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
@@ -244,7 +309,15 @@ Eigen::Quaterniond YamlEntry::orientation() const {
 }
 
 std::string YamlEntry::path() const {
-  return (std::filesystem::path(file_).parent_path() / text()).lexically_normal().string();
+  const fs::path folder = fs::path(source_->path).parent_path();
+  const fs::path path = (folder / text()).lexically_normal();
+  const auto is_inside = [&](const fs::path& allowed) { return is_in(path, allowed); };
+  if (!is_inside(folder) &&
+      std::none_of(source_->allowed.begin(), source_->allowed.end(), is_inside))
+    fail("\"" + text() +
+         "\" leads out of the file's folder, must be in it or below, or in a folder that is "
+         "allowed (seam --allow DIR)");
+  return path.string();
 }
 
 }  // namespace seam

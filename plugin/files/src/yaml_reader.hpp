@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,9 +22,12 @@ class YamlEntry {
   /// The root of a file, in which some entries are set anew: `key=value` texts, the key a path of keys and of
   /// numbers of list entries (from 0), the value YAML, e.g. `steps.0.until={after: 0.6}`. A key that is not there
   /// is added.
-  /// @throws Error  cannot be read, is not YAML (names the line), or goes on behind its first document;
+  /// @param allowed  folders of which the file may name files, beside its own: see `path`
+  /// @throws Error  cannot be read, is not YAML (names the line), goes on behind its first document, or is beyond what a
+  ///                person writes: more than 4 MiB, 200 000 values (with those that aliases repeat) or 32 levels;
   ///                an override that is no key=value, or leads through something that has no entries
-  static YamlEntry read(const std::string& path, const std::vector<std::string>& overrides = {});
+  static YamlEntry read(const std::string& path, const std::vector<std::string>& overrides = {},
+                        std::vector<std::string> allowed = {});
 
   /// Refuses a file whose key `format` is not `<name> <version>` of a version from 1 to the newest;
   /// to be asked before all else, so that a file of a newer format is refused for that and not for
@@ -47,6 +51,7 @@ class YamlEntry {
   double positive() const;      // finite and > 0
   double not_negative() const;  // finite and ≥ 0
   int count(int least) const;   // whole and ≥ least
+  int count(int least, int most) const;
   /// A list of finite numbers. @throws Error  names the line of the first that is not
   Eigen::VectorXd numbers() const;
   /// As many as this. @param per  what there must be one of them for, e.g. `coordinate`
@@ -54,16 +59,24 @@ class YamlEntry {
   /// Four numbers x y z w of norm 1 within 1e-3; normalised, but kept to the bit where they will do
   /// as they are (see unit_tolerance).
   Eigen::Quaterniond orientation() const;
+  /// The text of the file, as it was read.
+  const std::string& file_text() const { return source_->text; }
   /// A path, relative to the file's folder unless absolute.
+  /// @throws Error  it leads, links followed, out of that folder and of those that are allowed
   std::string path() const;
 
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  YamlEntry(YAML::Node node, std::string file, std::string key, int line);
+  struct Source {
+    std::string path, text;
+    std::vector<std::string> allowed;
+  };
+
+  YamlEntry(YAML::Node node, std::shared_ptr<const Source> source, std::string key, int line);
 
   YAML::Node node_;
-  std::string file_;
+  std::shared_ptr<const Source> source_;
   std::string key_;
   int line_;  // of the key, from 0
 };

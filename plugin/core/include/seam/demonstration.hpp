@@ -44,7 +44,8 @@ struct Demonstration {
 
   /// Takes derivatives from the positions by a smoothing fit. The positions stay as they are.
   /// @throws Error  fewer than five samples, sizes that do not match, a time that does not
-  ///                increase, a value that is not finite, a cut-off that is not > 0
+  ///                increase, a value that is not finite, a position or duration that no primitive
+  ///                may have (value_bounds, tau_bounds), a cut-off that is not > 0
   static Demonstration from_positions(std::vector<std::string> coordinates, Eigen::VectorXd time,
                                       Eigen::MatrixXd position,
                                       const DerivativeSettings& settings = {});
@@ -66,8 +67,8 @@ struct Demonstration {
 
   /// @throws Error  what keeps it from being learned: no coordinates, names that repeat, fewer than
   ///                five samples, sizes that do not match, a time that does not increase, a value
-  ///                that is not finite, a reference orientation that will not do (see
-  ///                require_reference)
+  ///                that is not finite, a position or duration out of bounds, a reference
+  ///                orientation that will not do (see require_reference)
   void validate() const;
   /// For a robot to check that it has what was shown.
   /// @throws Error  a coordinate that is not among the names

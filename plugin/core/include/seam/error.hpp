@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -12,12 +13,19 @@ namespace SEAM_API seam {
 /// `pa10.urdf: link "w1": mass -1 kg, must be > 0`. Nothing that runs inside a tick throws.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
-
+  /// @param line  the message; control characters in it become blanks
+  explicit Error(const std::string& line) : std::runtime_error(in_one_line(line)) {}
   /// @param place  the file, and where in it, e.g. `reach.csv:12`
   /// @param what   what is wrong and what would be right
-  Error(const std::string& place, const std::string& what)
-      : std::runtime_error(place + ": " + what) {}
+  Error(const std::string& place, const std::string& what) : Error(place + ": " + what) {}
+
+ private:
+  // Names that come from files may hold line breaks and worse.
+  static std::string in_one_line(std::string text) {
+    const auto is_control = [](unsigned char c) { return c < 0x20; };
+    std::replace_if(text.begin(), text.end(), is_control, ' ');
+    return text;
+  }
 };
 
 }  // namespace seam

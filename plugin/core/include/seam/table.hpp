@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -17,9 +15,8 @@ struct Table {
   std::vector<std::string> columns;  // C names, all different
   Eigen::MatrixXd values;            // N × C
 
-  /// Reads comma-separated numbers; blanks around them, a final newline and CR LF are allowed.
-  /// @throws Error  names file, line and column: unreadable or empty file, no rows, an empty or
-  /// repeated
+  /// Reads comma-separated numbers; blanks around them, a final newline and CR LF are allowed. At most 1 GiB.
+  /// @throws Error  names file, line and column: unreadable or empty file, no rows, an empty or repeated
   ///                column name, too few or too many fields, a field that is not a finite number
   static Table read(const std::string& path);
   /// Writes 17 significant digits, so that reading gives the same bits. The file appears whole or
@@ -27,12 +24,5 @@ struct Table {
   /// @throws Error  cannot be written
   void write(const std::string& path) const;
 };
-
-/// Writes a file so that it appears whole or not at all: beside its place first, then renamed. A device
-/// or a pipe (/dev/stdout) is written to as it is.
-/// @throws Error  cannot be written (names the reason, e.g. no space left on device)
-void write_whole(const std::string& path, const std::string& content);
-/// The same where the content is too long to be held in memory.
-void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace seam

@@ -21,8 +21,8 @@ struct SequenceFile {
 };
 
 /// Reads a sequence from a YAML file of the format `seam-sequence 1`. Primitives are named once and
-/// played as often as they are wanted; paths are relative to the file. Keys that may be left out
-/// are marked so.
+/// played as often as they are wanted; paths are relative to the file, and lead, links followed, to its own
+/// folder or below, or to folders that are allowed. Keys that may be left out are marked so.
 ///
 ///     format: seam-sequence 1
 ///     start:                            # optional, and so is each part and coordinate
@@ -43,18 +43,21 @@ struct SequenceFile {
 /// A demonstration is learned with LearnSettings and DerivativeSettings, all optional: kind, period
 /// [s], kernels, width, precision [m or rad], method (least_squares, recursive, locally_weighted),
 /// alpha, gains: {K, D, H} (D and H optional: critical), cutoff [Hz]; and speed, a factor by which the movement is
-/// played faster than it was shown.
+/// played faster than it was shown. Of kernels there may be 1000, and samples·kernels² up to 10¹⁰ (with a precision,
+/// samples·4/3·kernels³): some seconds of learning.
 ///
 /// `reference`, a unit quaternion x y z w, is the reference orientation of all primitives with the
 /// coordinates rx ry rz: the columns qx qy qz qw of demonstrations are turned from it, primitives
 /// that carry none are taken as about it, those that carry another are refused. Without the key
 /// demonstrations are turned from that of the first primitive that carries one, else from the first
 /// sample of the first demonstration with an orientation.
-/// @throws Error  names file, line and key: unreadable, not YAML, a newer format, a missing, extra
-///                or repeated key, a value that is not a finite number or out of range, a name that
+/// @param allowed  folders of which files may be named beside its own, e.g. {"/data/demos"}; {"/"}: any
+/// @throws Error  names file, line and key: unreadable, not YAML, more than 4 MiB, 200 000 values or 32 levels, a newer
+///                format, a missing, extra or repeated key, a path that leads out of the folders, a value that is not a finite
+///                number or out of range, a name that
 ///                is not among the primitives, and whatever Sequence, learn or a file that is named
 ///                refuses
-SequenceFile read_sequence(const std::string& path);
+SequenceFile read_sequence(const std::string& path, std::vector<std::string> allowed = {});
 
 /// Writes a sequence with all its primitives and 17 significant digits: it comes back bit for bit.
 /// The file appears whole or not at all.

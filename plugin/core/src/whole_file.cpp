@@ -1,0 +1,98 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <set>
+
+#include <seam/error.hpp>
+#include <seam/whole_file.hpp>
+
+namespace seam {
+
+namespace {
+
+// Those that are on their way. Names come and go under its lock.
+struct Unfinished {
+  std::mutex mutex;
+  std::set<std::string> names;
+};
+
+Unfinished& unfinished() {
+  static auto& instance = *new Unfinished;  // outlives the threads that write
+  return instance;
+}
+
+std::string reason() {
+  return std::strerror(errno);
+}
+
+void write_in_place(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  std::ofstream file(path, std::ios::binary);
+  write(file);
+  file.close();
+  if (!file) throw Error(path, "cannot be written: " + reason());
+}
+
+}  // namespace
+
+std::string read_whole(const std::string& path, const std::string& kind, std::uintmax_t most) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(path, "is a folder, must be a " + kind);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path, "cannot be read: " + reason());
+  std::string content;
+  char block[1 << 14];
+  do {
+    file.read(block, sizeof block);
+    content.append(block, static_cast<std::size_t>(file.gcount()));
+    if (content.size() > most)
+      throw Error(path, "is larger than " + std::to_string(most >> 20) + " MiB");
+  } while (file);
+  if (file.bad()) throw Error(path, "cannot be read: " + reason());
+  return content;
+}
+
+void write_whole(const std::string& path, const std::string& content) {
+  write_whole(path, [&](std::ostream& file) { file << content; });
+}
+
+void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  std::error_code ignored;
+  if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_fifo(path, ignored))
+    return write_in_place(path, write);
+  PartFile part(path);
+  std::ofstream file(part.name(), std::ios::binary | std::ios::in);  // does not make it anew
+  write(file);
+  file.close();
+  if (!file) throw Error(path, "cannot be written: " + reason());
+  part.finish();
+}
+
+PartFile::PartFile(std::string path) : path_(std::move(path)), name_(path_ + ".part") {
+  const std::lock_guard<std::mutex> lock(unfinished().mutex);
+  std::remove(name_.c_str());  // another process may still write to it
+  if (!std::ofstream(name_)) throw Error(path_, "cannot be written: " + reason());
+  unfinished().names.insert(name_);
+}
+
+PartFile::~PartFile() {
+  const std::lock_guard<std::mutex> lock(unfinished().mutex);
+  if (unfinished().names.erase(name_) > 0) std::remove(name_.c_str());
+}
+
+void PartFile::finish() {
+  const std::lock_guard<std::mutex> lock(unfinished().mutex);
+  if (std::rename(name_.c_str(), path_.c_str()) != 0)
+    throw Error(path_, "cannot be written: " + reason());
+  unfinished().names.erase(name_);
+}
+
+void PartFile::discard_all() {
+  unfinished().mutex.lock();  // and never unlocked
+  for (const std::string& name : unfinished().names) std::remove(name.c_str());
+}
+
+}  // namespace seam

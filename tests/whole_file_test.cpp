@@ -1,0 +1,89 @@
+#include <csignal>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include "tests/support.hpp"
+#include <seam/whole_file.hpp>
+
+namespace seam {
+namespace {
+
+using test::refusal;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// As on a disk that is full.
+class ShortFiles {
+ public:
+  explicit ShortFiles(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ShortFiles(const ShortFiles&) = delete;
+  ShortFiles& operator=(const ShortFiles&) = delete;
+  ~ShortFiles() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(ReadWhole, RefusesWhatIsTooLargeOrNoFile) {
+  const TempFolder folder;
+  const std::string path = folder.write("a.txt", std::string((2 << 20) + 1, 'x'));
+  EXPECT_EQ(read_whole(path, "text", 3 << 20).size(), (2U << 20) + 1);
+  EXPECT_EQ(refusal([&] { read_whole(path, "text", 2 << 20); }), path + ": is larger than 2 MiB");
+  EXPECT_EQ(refusal([] { read_whole("/dev/zero", "text", 1 << 20); }),
+            "/dev/zero: is larger than 1 MiB");
+  EXPECT_THAT(refusal([&] { read_whole(folder.path(""), "text", 1); }),
+              EndsWith(": is a folder, must be a text"));
+  EXPECT_THAT(refusal([] { read_whole(std::string(5000, 'x'), "text", 1); }),
+              EndsWith(": cannot be read: File name too long"));
+}
+
+TEST(WriteWhole, WritesToADeviceAndLeavesItThere) {
+  write_whole("/dev/null", "text");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_THAT(refusal([] { write_whole("/dev/full", std::string(1 << 16, 'x')); }),
+              HasSubstr("/dev/full: cannot be written: No space left"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(WriteWhole, LeavesWhatWasThereWhenTheDiskTakesNoMore) {
+  EXPECT_THAT(refusal([] { write_whole("/dev/full/x", "text"); }),
+              StartsWith("/dev/full/x: cannot be written"));
+  const TempFolder folder;
+  const std::string path = folder.write("kept.csv", "old");
+  {
+    const ShortFiles disk(1000);
+    EXPECT_EQ(refusal([&] { write_whole(path, std::string(100000, 'x')); }),
+              path + ": cannot be written: File too large");
+  }
+  EXPECT_EQ(test::read_file(path), "old");
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST(PartFile, GivesWayToTheNextOne) {
+  const TempFolder folder;
+  const std::string path = folder.path("a.txt");
+  folder.write("a.txt.part",
+               "left by a process that was killed, which a child of it still writes to");
+  std::ofstream orphan(path + ".part", std::ios::in);
+  write_whole(path, "new");
+  orphan << "old" << std::flush;
+  EXPECT_EQ(test::read_file(path), "new");
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST(PartFile, IsRemovedUnlessItIsFinished) {
+  const TempFolder folder;
+  { const PartFile part(folder.path("a.txt")); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
+}
+
+}  // namespace
+}  // namespace seam
