@@ -72,7 +72,8 @@ TEST(Experiment, RefusesAMetricThatTheSceneDoesNotHave) {
 class ExperimentRefuses : public testing::TestWithParam<BadFile> {};
 
 TEST_P(ExperimentRefuses, WithFileLineAndKey) {
-  const std::string good = test::read_file(own + "speed.yaml");
+  const std::string good =
+      test::replaced(test::read_file(own + "speed.yaml"), "../../scenes", SEAM_SCENES);
   test::expect_refused(GetParam(), good, TempFolder(),
                        [](const std::string& path) { Experiment::read(path); });
 }
