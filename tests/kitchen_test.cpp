@@ -226,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(
     test::by_name);
 
 TEST(Pouring, RefusesGrainsThatDoNotFitBeforeTheyArePlayed) {
-  const Scene full = scene_with("pouring", "count: 32", "count: 3200");
+  const Scene full = scene_with("pouring", "count: 32", "count: 900");
   EXPECT_THAT(test::refusal([&] { play(full, Join::dmp2, full.dt); }),
               HasSubstr("do not fit into the vessel"));
 }

@@ -198,8 +198,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NegativeTick", "bench line --dt -1", "--dt"},
         BadCall{"NoJobs", "bench line --jobs 0", "--jobs"},
         BadCall{"TickThatIsNotANumber", "bench line --dt nan", "line.yaml:18: key \"dt\": \"nan\""},
-        BadCall{"TickTooLongForTheGains", "bench line --dt 0.05",
-                "line.yaml:18: key \"dt\": 0.05, is too long"},
         BadCall{"SetNothing", "bench line --set dt", "dt: must be key=value"},
         BadCall{"SetUnknown", "run line --method dmp2 --set dz=1", "key \"dz\": not known here"},
         BadCall{"NoBaselines", "bench line --check @", "tolerances.yaml: cannot be read"},

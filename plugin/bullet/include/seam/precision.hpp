@@ -28,6 +28,7 @@ extern const char this_needs_seam_bullet;
 /// In seam::bullet-float32 alone, likewise.
 extern const char this_needs_seam_bullet_float32;
 
+/// @cond
 #ifdef BT_USE_DOUBLE_PRECISION
 static_assert(sizeof(btScalar) == 8, "btScalar must be double");
 [[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet;
@@ -54,5 +55,6 @@ SEAM_REFUSE(SEAM_OTHER_COLLISION);
 SEAM_REFUSE(SEAM_OTHER_DYNAMICS);
 #undef SEAM_REFUSE
 #endif
+/// @endcond
 
 }  // namespace seam
