@@ -75,11 +75,23 @@ void learn_file(Options options) {
 }
 
 template <typename Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) names.push_back(name);
+  return names;
+}
+
+template <typename Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value,
                         const std::map<std::string, Value>& choices, const std::string& what) {
-  return command.add_option(name, value, what)
-      ->transform(CLI::CheckedTransformer(choices).description(""))
-      ->type_name("NAME");
+  const auto set = [&value, choices, name](const std::string& choice) {
+    const auto found = choices.find(choice);
+    if (found == choices.end())
+      throw CLI::ValidationError(name, fmt::format("\"{}\", must be one of {}", choice,
+                                                   fmt::join(names_of(choices), ", ")));
+    value = found->second;
+  };
+  return command.add_option_function<std::string>(name, set, what)->type_name("NAME");
 }
 
 void add_learning(CLI::App& command, LearnSettings& learning) {

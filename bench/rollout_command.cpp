@@ -103,14 +103,14 @@ void add_rollout_command(CLI::App& app) {
   command.add_option("--method", options->method, "joining method: dmp2, dmp2a, dmp3, dmp2j")
       ->required();
   command.add_option("--dt", options->dt, "[s] between rows")
-      ->check(CLI::Range(1e-6, 0.1))
+      ->check(CLI::Number & CLI::Range(1e-6, 0.1))
       ->capture_default_str();
   command.add_option("--settle", options->settle, "[s] to go on after the last switch")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(CLI::Number & CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   command
       .add_option("--duration", options->duration, "[s] of it all, whatever has happened by then")
-      ->check(CLI::Range(1e-6, 36000.0));
+      ->check(CLI::Number & CLI::Range(1e-6, 36000.0));
   add_allow_option(command, options->allowed);
   command.add_option("-o,--out", options->out, "recording (CSV) to write")->required();
   command.callback([options] { roll_out(*options); });

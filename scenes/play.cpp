@@ -126,8 +126,11 @@ Recording play(const Scene& scene, Join method, double dt, Replay* replay) {
   if (!(dt >= 0.5 * least_tick && dt <= largest_tick))
     throw Error(scene.name, "a tick of " + std::to_string(dt) + " s, must be in 1e-6 to 0.1 s");
   Recording recording = play_at(scene, method, dt, 0, replay);
-  for (std::size_t place = 1; place < scene.places(); ++place)
-    keep_worse(play_at(scene, method, dt, place).outcomes, recording.outcomes);
+  for (std::size_t place = 1; place < scene.places(); ++place) {
+    const Recording other = play_at(scene, method, dt, place);
+    keep_worse(other.outcomes, recording.outcomes);
+    if (recording.incident.empty()) recording.incident = other.incident;
+  }
   return recording;
 }
 

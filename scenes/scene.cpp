@@ -203,8 +203,10 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   if (const auto events = root.find("events"))
     scene.events = read_events(*events, scene.sequence.coordinates(), scene.seed);
   scene.duration = read_duration(root, scene.sequence);
-  if (const auto speed = root.find("speed"))
-    at_key(*speed, [&] { hasten(read_speed(*speed), scene); });
+  if (const auto speed = root.find("speed")) {
+    const double factor = read_speed(*speed);
+    at_key(*speed, [&] { hasten(factor, scene); });
+  }
   if (!(scene.duration <= most_ticks * scene.dt))
     root.fail("has more than 1e7 ticks, must be shorter, or its dt longer");
   if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);

@@ -212,7 +212,10 @@ TEST(AnyApp, TeleportsTheArmInTaskSpaceToAnotherPosture) {
   q(2) += 0.25;
   q(4) -= 0.2;
   arm.robot.reset(q, Eigen::VectorXd::Zero(7));
-  ASSERT_TRUE(controller.reinitialise());
+  const AllocationGuard guard;
+  const bool taken_up = controller.reinitialise();
+  EXPECT_EQ(guard.allocations(), 0);
+  ASSERT_TRUE(taken_up);
   Eigen::VectorXd before = q;
   for (int k = 0; k < 2500; ++k) {
     world->stepSimulation(1e-3, 0);

@@ -231,6 +231,29 @@ TEST_F(Gripper, BeginsWithItsFollowersInPlace) {
   EXPECT_EQ(q, model_.neutral());
 }
 
+// The way to the goal leads beyond the leader's limit (0.04 m), at 0.16 m/s.
+TEST_F(Gripper, FingersStopTogetherAtALimit) {
+  World world;
+  Robot robot(model_, *world, standing(base_poses()[0]));
+  Demonstration over = test::demonstrate(1.0, [](double t) {
+    const double w = 2.0 * M_PI;
+    return Eigen::Vector3d(0.025 * (1.0 - std::cos(w * t)), 0.025 * w * std::sin(w * t),
+                           0.025 * w * w * std::cos(w * t));
+  });
+  over.coordinates = {"grip"};
+  Controller controller(robot, Sequence().then(learn(over)), Join::dmp3);
+  Plugin plugin(*world);
+  plugin.add(controller);
+  for (int k = 0; k < 1500; ++k) {
+    world->stepSimulation(btScalar(1e-3), 0);
+    const Controller::Tick& tick = controller.last_tick();
+    EXPECT_NEAR(tick.q(right_), tick.q(grip_), 1e-9) << k;
+    EXPECT_NEAR(tick.q(fold_), 0.2 - 15.0 * tick.q(grip_), 1e-9) << k;
+  }
+  EXPECT_EQ(controller.status(), Controller::Status::stopped);
+  EXPECT_LT(controller.last_tick().q(grip_), 0.0415);
+}
+
 TEST_F(Gripper, FollowersHoldWhereNothingMovesTheirLeader) {
   World world;
   Robot robot(model_, *world, standing(base_poses()[0]));

@@ -53,6 +53,17 @@ TEST(Guard, TakesAStateThatStandsForNoneOnceTheReferenceHasMovedOn) {
   EXPECT_EQ(guard.dropout().value, 0.0);
 }
 
+TEST(Guard, LetsAStateThatIsLateStandForItsDelay) {
+  Guard guard(robot(), {}, 0.05);
+  for (const bool again : {false, true}) {
+    for (int k = 0; k < 50; ++k)
+      EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.01 * k, 0.0, 0.0))) << k;
+    EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.495, 0.0, 0.0)));
+    EXPECT_FALSE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.505, 0.0, 0.0))) << again;
+    guard.restart(rest);
+  }
+}
+
 TEST(Guard, TakesAStateThatIsNotFiniteForNoneAndTellsWhenThatIsTooLong) {
   GuardSettings settings;
   settings.longest_dropout = 0.0205;
@@ -143,7 +154,9 @@ TEST(Guard, RefusesBoundsThatAreNone) {
 TEST(Guard, IncidentsAreToldInOneLine) {
   EXPECT_EQ(describe({}, robot()), "nothing has happened");
   EXPECT_EQ(describe({Cause::no_state, 1.5, -1, 0.101, 0.1}, robot()),
-            "at 1.5 s there had been no state of the joints for 0.101 s, the bound is 0.1");
+            "from 1.5 s on there was no state of the joints for more than 0.1 s");
+  EXPECT_EQ(describe({Cause::no_state, 1.5, -1, 0.04, 0.1}, robot()),
+            "from 1.5 s on there was no state of the joints for 0.04 s, which was bridged");
   EXPECT_EQ(describe({Cause::deviation, 1.5, 2, 0.35, 0.3}, robot()),
             "at 1.5 s joint \"slide\" was off its reference by 0.35 m, the bound is 0.3");
   EXPECT_EQ(describe({Cause::goal, 0.0, 0, 3.5, 2.0}, robot()),

@@ -393,6 +393,16 @@ TEST(RobotModel, TakesAMassWithoutInertiaForAPoint) {
       "and in some position nothing behind it resists: must be > 0");
 }
 
+// What rounding leaves of its arm is no inertia.
+TEST(RobotModel, RefusesAPointOnASkewAxis) {
+  const std::string point = R"(<inertial><origin xyz="0.1 0.2 0.3"/><mass value="2"/>
+    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>)";
+  EXPECT_THAT(refusal(robot(link("a") + link("b", point) +
+                            joint("j", "revolute", "a", "b",
+                                  std::string(limits) + R"(<axis xyz="1 2 3"/>)"))),
+              testing::HasSubstr("in some position nothing behind it resists"));
+}
+
 TEST(RobotModel, AcceptsAMomentThatIsRoundedUp) {
   EXPECT_EQ(read(inertial("1", "0.1", "0.312", "0.2")).base.inertial.mass, 1.0);
 }

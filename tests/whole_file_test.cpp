@@ -1,4 +1,5 @@
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -31,6 +32,30 @@ class ShortFiles {
  private:
   rlimit before_{};
 };
+
+TEST(WriteWhole, ReplacesWhatALinkLeadsToAndNotTheLink) {
+  const TempFolder folder;
+  const std::string target = folder.write("target.txt", "before");
+  const std::string link = folder.path("link.txt");
+  std::filesystem::create_symlink("target.txt", link);
+  write_whole(link, "after");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(test::read_file(target), "after");
+}
+
+// As /dev/stdout does where output goes to a file: what else is written there stays.
+TEST(WriteWhole, WritesToADescriptorAsItIs) {
+  const TempFolder folder;
+  const std::string target = folder.write("target.txt", "");
+  const std::string link = folder.path("stdout");
+  std::FILE* const file = std::fopen(target.c_str(), "a");
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(fileno(file)), link);
+  write_whole(link, "content\n");
+  std::fputs("more\n", file);
+  std::fclose(file);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(test::read_file(target), "content\nmore\n");
+}
 
 TEST(ReadWhole, RefusesWhatIsTooLargeOrNoFile) {
   const TempFolder folder;

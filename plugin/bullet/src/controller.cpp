@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
@@ -93,8 +94,9 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
       coming_to_rest_(tick_.q),
       law_(InverseDynamics(known(robot, settings)), valid(settings.law)),
       sensor_(known(robot, settings), settings.sensor),
-      guard_(known(robot, settings), settings.guard),
+      guard_(known(robot, settings), settings.guard, settings.sensor.delay),
       actuator_(known(robot, settings), settings.actuator),
+      followers_(known(robot, settings)),
       offset_(static_cast<int>(tick_.q.size())),
       taken_up_(sequencer_.sample()),
       next_sequence_(taken_up_),
@@ -123,6 +125,7 @@ void Controller::begin_here() noexcept {
   here_.velocity -= next_.velocity;
   offset_.start(here_.position, here_.velocity);
   offset_.add_to(next_);
+  goal_.setConstant(std::numeric_limits<double>::quiet_NaN());  // to be looked at by the new bounds
 }
 
 bool Controller::reinitialise() noexcept {
@@ -134,6 +137,7 @@ bool Controller::reinitialise() noexcept {
     return false;
   begin_here();
   sensor_.forget();
+  blind_ = false;
   status_ = Status::following;
   incident_ = {};
   return true;
@@ -191,13 +195,12 @@ Incident Controller::goal_beyond_limits() noexcept {
 }
 
 void Controller::bridge() noexcept {
+  const double since = blind_ ? incident_.time : tick_.time;
   blind_ = true;
   if (status_ == Status::stopped) return;
-  const Incident dropout = guard_.dropout();
-  if (guard_.lost()) return stop(dropout);
-  const double since = status_ == Status::bridging ? incident_.time : tick_.time;
   status_ = Status::bridging;
-  incident_ = dropout;
+  if (guard_.lost()) stop(guard_.dropout());
+  incident_ = guard_.dropout();
   incident_.time = since;
 }
 
@@ -274,6 +277,7 @@ void Controller::stop_here(const Incident& incident) noexcept {
 void Controller::brake_from(const Sample& from) noexcept {
   coming_to_rest_ = from.position + stopping_time * from.velocity;
   guard_.keep_within_limits(from.position, coming_to_rest_);
+  followers_.place(coming_to_rest_);
   brake_.set_goal(coming_to_rest_);
   brake_.reinitialise(from, 1.0, Join::dmp3);
 }

@@ -37,10 +37,15 @@ std::string describe(const Incident& incident, const RobotModel& robot) {
   std::ostringstream line;
   line.imbue(std::locale::classic());
   if (incident.cause == Cause::none) return "nothing has happened";
-  line << "at " << incident.time << " s ";
   if (incident.cause == Cause::no_state) {
-    line << "there had been no state of the joints for " << incident.value << " s";
-  } else if (incident.cause == Cause::unreachable) {
+    const bool bridged = incident.value <= incident.bound;
+    line << "from " << incident.time << " s on there was no state of the joints for "
+         << (bridged ? "" : "more than ") << (bridged ? incident.value : incident.bound) << " s"
+         << (bridged ? ", which was bridged" : "");
+    return line.str();
+  }
+  line << "at " << incident.time << " s ";
+  if (incident.cause == Cause::unreachable) {
     line << "the sequence led where the tool cannot be";
   } else {
     const Joint& joint = robot.joints[static_cast<std::size_t>(incident.joint)];
@@ -53,7 +58,7 @@ std::string describe(const Incident& incident, const RobotModel& robot) {
   return line.str();
 }
 
-Guard::Guard(const RobotModel& model, const GuardSettings& settings)
+Guard::Guard(const RobotModel& model, const GuardSettings& settings, double delay)
     : settings_(settings),
       most_error_(settings.most_error.each(model.dof())),
       lower_(model.dof()),
@@ -61,7 +66,8 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings)
       slack_(model.dof()),
       seen_q_(Eigen::VectorXd::Zero(model.dof())),
       seen_qd_(seen_q_),
-      reference_(seen_q_) {
+      reference_(seen_q_),
+      delay_(delay) {
   require_bound("guard: longest_dropout", settings.longest_dropout);
   require_bound("guard: frozen_beyond", settings.frozen_beyond);
   require_bound("guard: beyond_limits", settings.beyond_limits);
@@ -79,9 +85,10 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings)
 
 bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                    const Eigen::VectorXd& reference) noexcept {
+  watched_ += dt;
   const bool finite = std::isfinite(q.sum() + qd.sum());
   const bool stands = begun_ && same(q, seen_q_) && same(qd, seen_qd_);
-  if (finite && !stands) {
+  if (finite && (!stands || watched_ <= delay_)) {
     seen_q_ = q;
     seen_qd_ = qd;
     reference_ = reference;
@@ -96,7 +103,7 @@ bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& q
 
 void Guard::restart(const Eigen::VectorXd& q) noexcept {
   begun_ = frozen_ = false;
-  dropout_ = 0.0;
+  watched_ = dropout_ = 0.0;
   least_ = (lower_ - slack_).cwiseMin(q);
   most_ = (upper_ + slack_).cwiseMax(q);
 }

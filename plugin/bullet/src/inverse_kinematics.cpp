@@ -162,10 +162,12 @@ bool InverseKinematics::within_limits() const noexcept {
 // The multipliers that fit the first condition best.
 void InverseKinematics::estimate_wrench() noexcept {
   const Jacobian& J = kinematics_.jacobian();
-  const Jacobian scaled = J * weight_.cwiseInverse().asDiagonal();
-  const Eigen::Matrix<double, 6, 6> normal =
-      scaled * J.transpose() + 1e-12 * Eigen::Matrix<double, 6, 6>::Identity();
-  wrench_ = -normal.ldlt().solve(J * (q_ - rest_));
+  scaled_ = J * weight_.cwiseInverse().asDiagonal();
+  Eigen::Matrix<double, 6, 6> normal = scaled_.lazyProduct(J.transpose());
+  normal.diagonal().array() += 1e-12;
+  step_.head(dof()) = q_ - rest_;
+  const Vector6d pull = J.lazyProduct(step_.head(dof()));
+  wrench_ = -normal.ldlt().solve(pull);
 }
 
 void InverseKinematics::start(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept {

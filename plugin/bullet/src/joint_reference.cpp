@@ -46,6 +46,11 @@ void Followers::place(Sample& joints) const noexcept {
   }
 }
 
+void Followers::place(Eigen::VectorXd& position) const noexcept {
+  for (const auto& [joint, leader, multiplier, offset] : followers_)
+    position(joint) = multiplier * position(leader) + offset;
+}
+
 JointSpace::JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates)
     : robot_(robot), coordinates_(coordinates), followers_(robot) {
   for (const std::string& coordinate : coordinates) {
@@ -82,7 +87,7 @@ bool JointSpace::at_goal(const Eigen::Ref<const Eigen::VectorXd>& goal,
   joints = held_;
   for (std::size_t c = 0; c < joints_.size(); ++c)
     joints(joints_[c]) = goal(static_cast<Eigen::Index>(c));
-  robot_.place_followers(joints);
+  followers_.place(joints);
   return true;
 }
 
@@ -122,7 +127,7 @@ TaskSpace::TaskSpace(const RobotModel& robot, const Sequence& sequence, const To
       followers_(robot),
       reference_(tool.orientation.value_or(Eigen::Quaterniond(tool_at(q).linear()))) {
   if (!(most_speed_ > 0.0)) throw Error("tool", "most_speed must be > 0");
-  solution_.position = solution_.velocity = solution_.acceleration = q;
+  solution_.position = solution_.velocity = solution_.acceleration = found_ = q;
   if (!turns()) return;
   const auto& reference = sequence.steps().front().primitive.reference_orientation;
   if (!reference)
@@ -147,18 +152,30 @@ Eigen::Isometry3d TaskSpace::pose(
 
 Sample TaskSpace::measured(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
   Sample at(dimensions_);
-  if (!take_up(q, qd, at) || (solution_.position - q).cwiseAbs().maxCoeff() > same_posture)
+  const bool there = take_up(q, qd, at);
+  followers_.place(solution_.position);
+  if (!there || (solution_.position - q).cwiseAbs().maxCoeff() > same_posture)
     throw Error("controller", "the joints are not where the posture puts them for their tool");
   return at;
 }
 
+Eigen::VectorXd TaskSpace::reach(const Eigen::Isometry3d& pose) {
+  Eigen::VectorXd q = solver_.reach(pose);
+  followers_.place(q);
+  return q;
+}
+
 bool TaskSpace::take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept {
+  const bool there = state_at(q, qd, at) && to_tool(at) && follow_target();
+  if (!there) solver_.start(found_);
+  return there;
+}
+
+bool TaskSpace::state_at(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept {
   const Eigen::Isometry3d X = tool_at(q);
   solver_.start(q);
   target_.pose = X;
   target_.velocity.noalias() = tool_.jacobian() * qd;
-  target_.acceleration.setZero();
-  if (!follow_target()) return false;
   at.position.head<3>() = X.translation();
   at.velocity.head<3>() = target_.velocity.head<3>();
   at.acceleration.setZero();
@@ -204,7 +221,7 @@ bool TaskSpace::follow_target() noexcept {
 
 bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
   if (!to_tool(sample) || !follow_target()) return false;
-  joints.position = solution_.position;
+  joints.position = found_ = solution_.position;
   joints.velocity = solution_.velocity;
   joints.acceleration = solution_.acceleration;
   followers_.place(joints);

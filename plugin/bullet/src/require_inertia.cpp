@@ -15,6 +15,7 @@ namespace {
 
 constexpr int positions = 300;
 constexpr double least_share = 1e-5;
+constexpr double rounding = 1e-12;  // of what a joint moves
 
 // The joint's column of a body's Jacobian: velocity of its centre of mass, and of its turning.
 struct Column {
@@ -56,15 +57,56 @@ bool moves_mass(const RobotModel& model, std::size_t joint) {
   return false;
 }
 
+// M(q), and what its diagonal would be, at the most, if the joints' axes were turned.
+struct JointInertia {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd about_any_axis;
+};
+
+JointInertia joint_inertia(const RobotModel& model, const Eigen::VectorXd& q) {
+  const int n = model.dof();
+  std::vector<Eigen::Isometry3d> X_base_body, X_base_joint;
+  JointInertia all{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  for (int i = 0; i < n; ++i) {
+    const Joint& joint = model.joints[static_cast<std::size_t>(i)];
+    const Eigen::Isometry3d X_base_parent =
+        joint.parent < 0 ? Eigen::Isometry3d::Identity()
+                         : X_base_body[static_cast<std::size_t>(joint.parent)];
+    X_base_joint.push_back(X_base_parent * joint.X_parent_body);
+    X_base_body.push_back(X_base_parent * joint.X_parent_body_at(q(i)));
+    const Inertial body = X_base_body.back() * model.bodies[static_cast<std::size_t>(i)].inertial;
+    Eigen::Matrix3Xd linear = Eigen::Matrix3Xd::Zero(3, n), angular = linear;
+    for (int k = i; k >= 0; k = model.joints[static_cast<std::size_t>(k)].parent) {
+      const Joint& moves = model.joints[static_cast<std::size_t>(k)];
+      const Eigen::Isometry3d& X_base_k = X_base_joint[static_cast<std::size_t>(k)];
+      const Column moved = column(moves, X_base_k, body.com);
+      linear.col(k) = moved.linear;
+      angular.col(k) = moved.angular;
+      const double arm2 = (body.com - X_base_k.translation()).squaredNorm();
+      all.about_any_axis(k) += moves.type == Joint::Type::prismatic
+                                   ? body.mass
+                                   : body.mass * arm2 + body.inertia.trace();
+    }
+    all.matrix +=
+        body.mass * linear.transpose() * linear + angular.transpose() * body.inertia * angular;
+  }
+  return all;
+}
+
 // The joints' motion that meets least inertia, for a diagonal of ones.
 struct Weakest {
   double share;
   Eigen::VectorXd motion;
 };
 
-Weakest weakest(const Eigen::MatrixXd& M) {
-  const Eigen::VectorXd scale =
-      M.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+Weakest weakest(const JointInertia& inertia) {
+  const Eigen::MatrixXd& M = inertia.matrix;
+  const Eigen::VectorXd least = rounding * inertia.about_any_axis;
+  const Eigen::VectorXd scale = M.diagonal()
+                                    .cwiseMax(least)
+                                    .cwiseMax(std::numeric_limits<double>::min())
+                                    .cwiseSqrt()
+                                    .cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * M *
                                                               scale.asDiagonal());
   return {solver.eigenvalues()(0), solver.eigenvectors().col(0).cwiseAbs()};
@@ -81,27 +123,7 @@ Weakest weakest(const Eigen::MatrixXd& M) {
 }  // namespace
 
 Eigen::MatrixXd inertia_matrix(const RobotModel& model, const Eigen::VectorXd& q) {
-  const int n = model.dof();
-  std::vector<Eigen::Isometry3d> X_base_body, X_base_joint;
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
-  for (int i = 0; i < n; ++i) {
-    const Joint& joint = model.joints[static_cast<std::size_t>(i)];
-    const Eigen::Isometry3d X_base_parent =
-        joint.parent < 0 ? Eigen::Isometry3d::Identity()
-                         : X_base_body[static_cast<std::size_t>(joint.parent)];
-    X_base_joint.push_back(X_base_parent * joint.X_parent_body);
-    X_base_body.push_back(X_base_parent * joint.X_parent_body_at(q(i)));
-    const Inertial body = X_base_body.back() * model.bodies[static_cast<std::size_t>(i)].inertial;
-    Eigen::Matrix3Xd linear = Eigen::Matrix3Xd::Zero(3, n), angular = linear;
-    for (int k = i; k >= 0; k = model.joints[static_cast<std::size_t>(k)].parent) {
-      const auto moved = column(model.joints[static_cast<std::size_t>(k)],
-                                X_base_joint[static_cast<std::size_t>(k)], body.com);
-      linear.col(k) = moved.linear;
-      angular.col(k) = moved.angular;
-    }
-    M += body.mass * linear.transpose() * linear + angular.transpose() * body.inertia * angular;
-  }
-  return M;
+  return joint_inertia(model, q).matrix;
 }
 
 void require_inertia(const RobotModel& model, const std::string& path) {
@@ -116,7 +138,7 @@ void require_inertia(const RobotModel& model, const std::string& path) {
   for (int k = 0; k < positions; ++k) {
     for (int i = 0; i < model.dof(); ++i)
       q(i) = anywhere(model.joints[static_cast<std::size_t>(i)], random);
-    const auto [share, motion] = weakest(inertia_matrix(model, q));
+    const auto [share, motion] = weakest(joint_inertia(model, q));
     if (share >= least_share) continue;
     std::size_t suspect = suspects.front();
     for (const std::size_t i : suspects)

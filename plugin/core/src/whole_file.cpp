@@ -35,6 +35,20 @@ void write_in_place(const std::string& path, const std::function<void(std::ostre
   if (!file) throw Error(path, "cannot be written: " + reason());
 }
 
+// A device, a pipe, or a descriptor of this process, whatever that leads to (/dev/stdout).
+bool is_stream(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::is_character_file(path, none) || std::filesystem::is_fifo(path, none) ||
+         std::filesystem::read_symlink(path, none).string().rfind("/proc/", 0) == 0;
+}
+
+std::string behind_links(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_symlink(path, none)) return path;
+  const auto target = std::filesystem::weakly_canonical(path, none);
+  return target.empty() ? path : target.string();
+}
+
 }  // namespace
 
 std::string read_whole(const std::string& path, const std::string& kind, std::uintmax_t most) {
@@ -60,9 +74,7 @@ void write_whole(const std::string& path, const std::string& content) {
 }
 
 void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  std::error_code ignored;
-  if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_fifo(path, ignored))
-    return write_in_place(path, write);
+  if (is_stream(path)) return write_in_place(path, write);
   PartFile part(path);
   std::ofstream file(part.name(), std::ios::binary | std::ios::in);  // does not make it anew
   write(file);
@@ -71,7 +83,7 @@ void write_whole(const std::string& path, const std::function<void(std::ostream&
   part.finish();
 }
 
-PartFile::PartFile(std::string path) : path_(std::move(path)), name_(path_ + ".part") {
+PartFile::PartFile(const std::string& path) : path_(behind_links(path)), name_(path_ + ".part") {
   const std::lock_guard<std::mutex> lock(unfinished().mutex);
   std::remove(name_.c_str());  // another process may still write to it
   if (!std::ofstream(name_)) throw Error(path_, "cannot be written: " + reason());

@@ -250,7 +250,8 @@ std::size_t YamlEntry::choice(std::initializer_list<const char*> texts) const {
 double YamlEntry::number() const {
   if (!node_.IsScalar()) fail("must be a finite number");
   const std::string& text = node_.Scalar();
-  const char* const begin = text.data() + (text.rfind('+', 0) == 0 ? 1 : 0);
+  const bool plus = text.rfind('+', 0) == 0 && text.rfind("+-", 0) != 0;
+  const char* const begin = text.data() + (plus ? 1 : 0);
   const char* const end = text.data() + text.size();
   double value = 0.0;
   const auto [last, status] = std::from_chars(begin, end, value);

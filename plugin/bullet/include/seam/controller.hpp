@@ -142,6 +142,7 @@ class Controller {
   Sensor sensor_;
   Guard guard_;
   Actuator actuator_;
+  Followers followers_;
   FadingOffset offset_;      // of the reference from what the sequence asks for
   Sample taken_up_;          // of the sequence, that it was re-initialised with
   Sample next_sequence_;     // at the end of the tick

@@ -37,7 +37,7 @@ struct Incident {
   };
 
   Cause cause = Cause::none;  // why
-  double time = 0.0;          // [s] since the controller was made
+  double time = 0.0;          // [s] since the controller was made; of no_state, when that began
   int joint = -1;             // of deviation, goal and joint_limit
   double value = 0.0;  // [s] without a state so far; [rad or m] deviation, goal, or reference
   double bound = 0.0;  // which it passed
@@ -49,8 +49,9 @@ std::string describe(const Incident& incident, const RobotModel& robot);
 /// Watches over n joints by GuardSettings. Neither allocates nor throws after construction.
 class Guard {
  public:
+  /// @param delay  [s] of the state, for which it may stay the same after a restart
   /// @throws Error  a bound is negative or NaN, or there are not as many as joints
-  Guard(const RobotModel& model, const GuardSettings& settings);
+  Guard(const RobotModel& model, const GuardSettings& settings, double delay = 0.0);
 
   /// Once per tick: whether a state can be used.
   /// @param dt         [s] > 0
@@ -78,6 +79,8 @@ class Guard {
   Eigen::VectorXd least_, most_;      // n, what the reference may be
   Eigen::VectorXd seen_q_, seen_qd_;  // n, the last state that was new
   Eigen::VectorXd reference_;         // n, then
+  double delay_;
+  double watched_ = 0.0;  // [s] since the restart
   bool begun_ = false;
   bool frozen_ = false;
   double dropout_ = 0.0;

@@ -101,6 +101,7 @@ class InverseKinematics {
   Eigen::VectorXd nearby_;
   Vector6d wrench_ = Vector6d::Zero();
   Eigen::MatrixXd gradient_;
+  Jacobian scaled_;
   System system_;
   Eigen::PartialPivLU<System> factors_;
   Vector right_, step_;

@@ -51,6 +51,7 @@ class Followers {
   explicit Followers(const RobotModel& robot);  // copies what it needs
   /// Position by multiplier and offset, velocity and acceleration by the multiplier. Neither allocates nor throws.
   void place(Sample& joints) const noexcept;
+  void place(Eigen::VectorXd& position) const noexcept;
 
  private:
   struct Follower {
@@ -108,7 +109,7 @@ class TaskSpace final : public JointReference {
 
   /// Joint positions at rest from which the sequence can begin with the tool at a pose.
   /// @throws Error  out of reach, by how much
-  Eigen::VectorXd reach(const Eigen::Isometry3d& pose) { return solver_.reach(pose); }
+  Eigen::VectorXd reach(const Eigen::Isometry3d& pose);
   /// The tool's pose for values of the coordinates.
   Eigen::Isometry3d pose(const Eigen::Ref<const Eigen::VectorXd>& position) const noexcept;
 
@@ -126,6 +127,7 @@ class TaskSpace final : public JointReference {
 
  private:
   bool turns() const noexcept { return dimensions_ == 6; }
+  bool state_at(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept;
   bool to_tool(const Sample& sample) noexcept;
   bool follow_target() noexcept;
 
@@ -137,6 +139,7 @@ class TaskSpace final : public JointReference {
   Eigen::Quaterniond reference_;  // q₀, or the orientation that is kept
   ToolState target_;
   JointSolution solution_;
+  Eigen::VectorXd found_;  // n, the last position that `find` gave
 };
 
 }  // namespace seam

@@ -36,7 +36,8 @@ struct RobotSettings {
 /// Neighbouring bodies (joined by one joint) do not collide; others do. A mesh collides as its
 /// convex hull. The base belongs to Bullet's static filter group: it meets what moves, not what is
 /// static. The world is borrowed: a robot that outlives it is only to be destroyed. Beside the colliders there is a
-/// collision object in the world that nothing meets (it tells the robot when the world is gone).
+/// collision object in the world that nothing meets (it tells the robot when the world is gone): an app
+/// that empties a world of its objects destroys its robots and plug-ins first.
 class Robot {
  public:
   /// @throws Error  see RobotModel::read and load_mesh; Bullet's libraries of both precisions are loaded

@@ -63,7 +63,7 @@ struct JoinMetrics {
 };
 
 /// A whole run. Derivatives are differences between neighbouring ticks, xₖ₊₁ − xₖ over dt: of a
-/// step they are its size over dt, so compare runs of the same dt. NaN as above.
+/// step they are its size over dt, or half of that where it falls between ticks, so compare runs of the same dt. NaN as above.
 struct RunMetrics {
   std::vector<JoinMetrics> joins;   // one per join, the start included
   double torque_jump_nm = unknown;  // worst over the joins; NaN where one could not be measured

@@ -17,7 +17,7 @@ std::string read_whole(const std::string& path, const std::string& kind, std::ui
 
 /// Writes a file so that it appears whole or not at all, and what was there before stays until then, whenever the process
 /// is killed (a machine that loses power is another matter). See PartFile. A device or a pipe (/dev/stdout) is written to
-/// as it is.
+/// as it is, a link's target is replaced and not the link. One writer at a time for a path.
 /// @throws Error  cannot be written (names the reason, e.g. no space left on device)
 void write_whole(const std::string& path, const std::string& content);
 /// The same where the content is too long to be held in memory.
@@ -28,7 +28,7 @@ void write_whole(const std::string& path, const std::function<void(std::ostream&
 class PartFile {
  public:
   /// @throws Error  cannot be made
-  explicit PartFile(std::string path);
+  explicit PartFile(const std::string& path);
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
   /// Removes it unless it was finished.
