@@ -56,10 +56,10 @@ TEST(Guard, TakesAStateThatStandsForNoneOnceTheReferenceHasMovedOn) {
 TEST(Guard, LetsAStateThatIsLateStandForItsDelay) {
   Guard guard(robot(), {}, 0.05);
   for (const bool again : {false, true}) {
-    for (int k = 0; k < 50; ++k)
+    for (int k = 0; k <= 50; ++k)
       EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.01 * k, 0.0, 0.0))) << k;
-    EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.495, 0.0, 0.0)));
-    EXPECT_FALSE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.505, 0.0, 0.0))) << again;
+    EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.505, 0.0, 0.0)));
+    EXPECT_FALSE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.515, 0.0, 0.0))) << again;
     guard.restart(rest);
   }
 }

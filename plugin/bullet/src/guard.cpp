@@ -88,7 +88,7 @@ bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& q
   watched_ += dt;
   const bool finite = std::isfinite(q.sum() + qd.sum());
   const bool stands = begun_ && same(q, seen_q_) && same(qd, seen_qd_);
-  if (finite && (!stands || watched_ <= delay_)) {
+  if (finite && (!stands || watched_ < delay_ + 1.5 * dt)) {
     seen_q_ = q;
     seen_qd_ = qd;
     reference_ = reference;
