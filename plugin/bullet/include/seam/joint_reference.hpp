@@ -51,6 +51,7 @@ class Followers {
   explicit Followers(const RobotModel& robot);  // copies what it needs
   /// Position by multiplier and offset, velocity and acceleration by the multiplier. Neither allocates nor throws.
   void place(Sample& joints) const noexcept;
+  /// Positions alone.
   void place(Eigen::VectorXd& position) const noexcept;
 
  private:
