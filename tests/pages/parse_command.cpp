@@ -10,6 +10,6 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", SEAM_VERSION);
   seam::add_commands(app);
-  for (CLI::App* command : app.get_subcommands({})) command->callback({});
+  app.parse_complete_callback([] { throw CLI::Success(); });  // before the command is carried out
   CLI11_PARSE(app, argc, argv);
 }
