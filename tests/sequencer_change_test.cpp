@@ -73,7 +73,8 @@ void move_rate(Sequencer& sequencer, int k) {
 }
 
 bool rate_has_corner(int k) {
-  for (const int corner : {150, 260, 410, 500, 700, 750, 950})
+  constexpr int brake = 296;  // its fall from 0.4 is at an end
+  for (const int corner : {150, 260, brake, 410, 500, 700, 750, 950})
     if (std::abs(k - corner) <= 2) return true;
   return false;
 }
@@ -388,6 +389,93 @@ TEST(AnyState, PlaysWhatIsAppendedOrPutInPlaceOfTheRest) {
       const int dropped = !replaced || over(state) ? 0 : state == In::waiting ? 2 : 1;
       EXPECT_EQ(sequencer.running(), (over(state) ? 1 : 2) - dropped);
       EXPECT_LT(distance(sequencer.sample().position, last.goal), 1e-3);
+    }
+}
+
+// A primitive of any kind, speed and place.
+Primitive any_primitive(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const Kind kind = uniform(random) < 0.5 ? Kind::discrete : Kind::rhythmic;
+  Primitive made = test::random_primitive(random, 2, kind == Kind::discrete ? 10 : 20, kind);
+  made.tau *= 0.5 + uniform(random);
+  return made;
+}
+
+Sequence any_sequence(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Sequence sequence;
+  if (random() % 8 == 0) sequence.start_after(0.3 * uniform(random));
+  for (auto left = 1 + random() % 3; left > 0; --left) {
+    sequence.then(any_primitive(random));
+    if (random() % 4 > 0) sequence.until(after(0.02 + uniform(random)));
+  }
+  return sequence;
+}
+
+double any_time(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  return std::pow(10.0, 4.0 * uniform(random) - 4.0);
+}
+
+// Tells a sequencer anything but to step, as its app may at any time. @return  what
+std::string tell(Sequencer& sequencer, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto positive = [&] { return 1.0 + uniform(random); };
+  switch (random() % 9) {
+    case 0:
+      sequencer.set_goal(Eigen::Vector2d(uniform(random), uniform(random)));
+      return "goal";
+    case 1:
+      sequencer.set_tau((0.3 + positive()) * (random() % 2 ? 1.0 : 0.15));
+      return "tau";
+    case 2:
+      sequencer.set_amplitude(positive());
+      return "amplitude";
+    case 3:
+      sequencer.set_rate(random() % 4 == 0 ? 0.0 : positive(), any_time(random));
+      return "rate";
+    case 4:
+      sequencer.hand_over();
+      return "hand over";
+    case 5:
+      sequencer.append(any_sequence(random));
+      return "append";
+    case 6:
+      sequencer.replace(any_sequence(random));
+      return "replace";
+    case 7:
+      sequencer.clear();
+      return "clear";
+    default:
+      sequencer.reinitialise(Sample(sequencer.state()));
+      return "reinitialise";
+  }
+}
+
+// Whatever it is told, whenever: position, velocity and (but for dmp2) acceleration are what they were.
+TEST(AnyCalls, LeaveTheMotionWithoutAStep) {
+  constexpr int calls = 4000;
+  for (const JoinSettings& join : all_settings)
+    for (unsigned seed = 60; seed < 65; ++seed) {
+      std::mt19937_64 random(seed);
+      Sequencer sequencer = started(any_sequence(random), join);
+      for (int i = 0; i < calls; ++i) {
+        for (auto steps = random() % 20; steps > 0; --steps)
+          sequencer.step(any_time(random) / 20.0);
+        const Sample before = sequencer.state();
+        double scale = 1.0;
+        for (const auto* part :
+             {&before.position, &before.velocity, &before.acceleration, &before.jerk})
+          scale = std::max(scale, part->cwiseAbs().maxCoeff());
+        const std::string told = tell(sequencer, random);
+        const Sample& after = sequencer.sample();
+        SCOPED_TRACE(name(join) + ", seed " + std::to_string(seed) + ", call " + std::to_string(i) +
+                     ": " + told);
+        ASSERT_LT(distance(after.position, before.position), 1e-12 * scale);
+        ASSERT_LT(distance(after.velocity, before.velocity), 1e-12 * scale);
+        if (join.method == Join::dmp2) continue;
+        ASSERT_LT(distance(after.acceleration, before.acceleration), 1e-10 * scale);
+      }
     }
 }
 

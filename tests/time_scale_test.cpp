@@ -28,23 +28,75 @@ TEST(TimeScale, GivesTheIntegralOfItsRate) {
   EXPECT_FALSE(scale.is_real_time());
 }
 
-// Also in the midst of another move: rate, its change and the time that goes by are continuous, and never run backwards.
-TEST(TimeScale, MovesOnSmoothlyFromTheMidstOfAMove) {
+// Changed in the midst of other moves, at random and by orders of magnitude: rate, slope and curvature go on as they were, and
+// the rate goes no further than it must.
+TEST(TimeScale, MovesOnSmoothlyFromTheMidstOfAMoveAndHardlyBeyondItsEnds) {
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto magnitude = [&] { return std::pow(10.0, 3.0 * uniform(random) - 3.0); };
   TimeScale scale;
-  for (int i = 0; i < 200; ++i) {
-    for (double left = 0.3 * uniform(random); left > 0.0; left -= 1e-3)
-      EXPECT_GE(scale.advance(1e-3), 0.0);
+  for (int i = 0; i < 20000; ++i) {
+    SCOPED_TRACE("seed 41, case " + std::to_string(i));
     const double rate = scale.rate();
-    const double change = scale.rate_change();
-    ASSERT_TRUE(scale.change(i % 3 ? 2.0 * uniform(random) : 0.0, 0.05 + 0.3 * uniform(random)));
-    EXPECT_NEAR(scale.rate(), rate, 1e-14);
-    EXPECT_NEAR(scale.rate_change(), change, 1e-11);
-    const double h = 1e-6;
-    const double time = scale.advance(h);
-    EXPECT_NEAR(time / h, rate, 1e-4) << "seed 41, case " << i;
-    EXPECT_NEAR((scale.rate() - rate) / h, change, 1e-2) << "seed 41, case " << i;
+    const double slope = scale.rate_change();
+    const double curvature = scale.rate_curvature();
+    const double to = i % 5 == 0 ? 0.0 : i % 5 == 1 ? rate : 3.0 * uniform(random);
+    const double over = magnitude();
+    ASSERT_TRUE(scale.change(to, over));
+    ASSERT_NEAR(scale.rate(), rate, 1e-13);
+    ASSERT_NEAR(scale.rate_change(), slope, 1e-12 * (1.0 + std::abs(slope)));
+    ASSERT_NEAR(scale.rate_curvature(), curvature, 1e-10 * (1.0 + std::abs(curvature)));
+    const double beyond = 0.1 * std::max(1.0, rate);
+    const double least = std::min(to, rate - std::min(beyond, 0.5 * rate));
+    const double most = std::max(to, rate + beyond);
+    const double until = over * (i % 7 == 0 ? 1.1 : uniform(random));
+    for (int k = 0; k < 100; ++k) {
+      ASSERT_GE(scale.advance(0.01 * until), 0.0);
+      ASSERT_GE(scale.rate(), least - 1e-12);
+      ASSERT_LE(scale.rate(), most + 1e-12);
+    }
+    ASSERT_TRUE(until < over || scale.rate() == to);
+  }
+}
+
+// Its slope, curvature and time are those of the rate, by finite differences.
+TEST(TimeScale, AgreesWithItselfInTheMidstOfMoves) {
+  TimeScale scale;
+  ASSERT_TRUE(scale.change(2.0, 0.1));
+  scale.advance(0.03);
+  ASSERT_TRUE(scale.change(0.3, 0.2));
+  constexpr double h = 1e-6;
+  const auto at = [&](double time) {
+    TimeScale then = scale;
+    then.advance(time);
+    return then;
+  };
+  for (int k = 1; k < 200; ++k) {
+    const double time = 1e-3 * k + 0.5e-3;
+    TimeScale now = at(time);
+    EXPECT_NEAR((at(time + h).rate() - at(time - h).rate()) / (2.0 * h), now.rate_change(), 1e-4);
+    EXPECT_NEAR((at(time + h).rate_change() - at(time - h).rate_change()) / (2.0 * h),
+                now.rate_curvature(), 0.1);
+    const double rate = now.rate();
+    const double change = now.rate_change();
+    EXPECT_NEAR(now.advance(h) / h, rate + 0.5 * h * change, 1e-8);
+  }
+}
+
+// A move to 2 that is called back half-way, however fast it was.
+TEST(TimeScale, IsCalledBackWithoutClimbingOn) {
+  for (const double over : {0.1, 0.01, 0.001, 1e-6}) {
+    TimeScale scale;
+    ASSERT_TRUE(scale.change(2.0, over));
+    scale.advance(0.5 * over);
+    ASSERT_TRUE(scale.change(1.0, 0.5));
+    double largest = 0.0;
+    for (int k = 0; k < 100000; ++k) {
+      scale.advance(k < 50000 ? over / 50000.0 : 1e-5);
+      largest = std::max(largest, scale.rate());
+    }
+    EXPECT_LE(largest, 1.65) << over;
+    EXPECT_EQ(scale.rate(), 1.0);
   }
 }
 

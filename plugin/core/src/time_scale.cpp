@@ -7,15 +7,59 @@ namespace seam {
 
 namespace {
 
-// Quintics in u that begin with (value, slope, curvature) of (1, 0, 0), (0, 1, 0), (0, 0, 1) and end with (0, 0, 0).
-double value_part(double u) {
+constexpr double most_beyond = 0.1;  // of the rate, or of 1
+constexpr double most_lost = 0.5;    // of the rate
+
+// 1 − (10u³ − 15u⁴ + 6u⁵), its derivatives, and its integral from 0 on.
+double gap_part(double u) {
   return 1.0 - u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
 }
-double slope_part(double u) {
-  return u * (1.0 + u * u * (-6.0 + u * (8.0 - 3.0 * u)));
+double gap_slope(double u) {
+  return -30.0 * u * u * (1.0 - u) * (1.0 - u);
 }
-double curvature_part(double u) {
-  return 0.5 * u * u * (1.0 - u) * (1.0 - u) * (1.0 - u);
+double gap_curvature(double u) {
+  return -60.0 * u * (1.0 - u) * (1.0 - 2.0 * u);
+}
+double gap_integral(double u) {
+  return u - u * u * u * u * (2.5 + u * (-3.0 + u));
+}
+
+// What remains of D until it is over, for ρ̇₀ = 1/Tᵦ and for ρ̈₀ = 1/Tᵦ²; likewise.
+double slope_part(double w) {
+  return w * (1.0 + w * w * (-1.0 + 0.5 * w)) - 0.5;
+}
+double slope_slope(double w) {
+  return (1.0 - w) * (1.0 - w) * (1.0 + 2.0 * w);
+}
+double slope_curvature(double w) {
+  return -6.0 * w * (1.0 - w);
+}
+double slope_integral(double w) {
+  return w * (-0.5 + w * (0.5 + w * w * (-0.25 + 0.1 * w)));
+}
+double curvature_part(double w) {
+  return w * w * (0.5 + w * (-2.0 / 3.0 + 0.25 * w)) - 1.0 / 12.0;
+}
+double curvature_slope(double w) {
+  return w * (1.0 - w) * (1.0 - w);
+}
+double curvature_curvature(double w) {
+  return (1.0 - w) * (1.0 - 3.0 * w);
+}
+double curvature_integral(double w) {
+  return w * (-1.0 / 12.0 + w * w * (1.0 / 6.0 + w * (-1.0 / 6.0 + 0.05 * w)));
+}
+
+// The longest time in which what leads upwards of a slope and a curvature takes the rate up by no more than `room`:
+// T·slope/2 + T²·curvature/12 = room.
+double braking_time(double slope, double curvature, double room) {
+  const double half = 0.5 * std::max(slope, 0.0);
+  const double root = std::sqrt(half * half + std::max(curvature, 0.0) * room / 3.0);
+  return half + root > 0.0 ? 2.0 * room / (half + root) : HUGE_VAL;
+}
+
+double share(double elapsed, double time) {
+  return std::min(elapsed / time, 1.0);
 }
 
 }  // namespace
@@ -25,20 +69,20 @@ bool TimeScale::change(double rate, double over) noexcept {
   const double now = this->rate();
   const double slope = rate_change();
   const double curvature = rate_curvature();
-  from_ = now;
-  slope_ = slope;
-  curvature_ = curvature;
+  const double beyond = most_beyond * std::max(1.0, now);
+  const double room_above = std::max(rate - now, beyond);
+  const double room_below = std::max(now - rate, std::min(beyond, most_lost * now));
+  const double in_progress = elapsed_ < over_ ? over_ - elapsed_ : over;
+  braking_ = std::min({over, in_progress, braking_time(slope, curvature, room_above),
+                       braking_time(-slope, -curvature, room_below)});
+  const bool brakes = braking_ > 0.0;
+  if (!brakes) braking_ = over;
+  slope_ = brakes ? slope : 0.0;
+  curvature_ = brakes ? curvature : 0.0;
   to_ = rate;
+  gap_ = now - rate + braking_ * (0.5 * slope_ + braking_ * curvature_ / 12.0);
+  over_ = over;
   elapsed_ = 0.0;
-  for (over_ = over; !never_negative(); over_ *= 0.5) {
-  }
-  return true;
-}
-
-// At 64 instants; a ramp from a falling rate that is too long for it would run the motion backwards.
-bool TimeScale::never_negative() const noexcept {
-  for (int i = 1; i < 64; ++i)
-    if (rate_at(i / 64.0) < -1e-12) return false;
   return true;
 }
 
@@ -49,43 +93,33 @@ double TimeScale::advance(double dt) noexcept {
   return std::max(0.0, motion_time(elapsed_) - before);
 }
 
-// Since the rate began to move: the integral of rate_at.
+// Since the rate began to move: the integral of the rate.
 double TimeScale::motion_time(double elapsed) const noexcept {
-  const double u = std::min(elapsed / over_, 1.0);
-  const double u2 = u * u;
-  const double u3 = u2 * u;
-  const double value = u - u2 * u2 * (2.5 + u * (-3.0 + u));
-  const double slope = u2 * (0.5 + u2 * (-1.5 + u * (1.6 - 0.5 * u)));
-  const double curvature = 0.5 * u3 * (1.0 / 3.0 + u * (-0.75 + u * (0.6 - u / 6.0)));
-  return to_ * elapsed + over_ * ((from_ - to_) * value +
-                                  over_ * (slope_ * slope + over_ * curvature_ * curvature));
-}
-
-double TimeScale::rate_at(double u) const noexcept {
-  return to_ + (from_ - to_) * value_part(u) +
-         over_ * (slope_ * slope_part(u) + over_ * curvature_ * curvature_part(u));
+  const double w = share(elapsed, braking_);
+  return to_ * elapsed + over_ * gap_ * gap_integral(share(elapsed, over_)) +
+         braking_ * braking_ *
+             (slope_ * slope_integral(w) + braking_ * curvature_ * curvature_integral(w));
 }
 
 double TimeScale::rate() const noexcept {
-  return elapsed_ >= over_ ? to_ : rate_at(elapsed_ / over_);
+  if (elapsed_ >= over_) return to_;
+  const double w = share(elapsed_, braking_);
+  const double braking = slope_ * slope_part(w) + braking_ * curvature_ * curvature_part(w);
+  return std::max(0.0, to_ + gap_ * gap_part(elapsed_ / over_) + braking_ * braking);
 }
 
 double TimeScale::rate_change() const noexcept {
   if (elapsed_ >= over_) return 0.0;
-  const double u = elapsed_ / over_;
-  const double value = -30.0 * u * u * (1.0 - u) * (1.0 - u);
-  const double slope = 1.0 + u * u * (-18.0 + u * (32.0 - 15.0 * u));
-  const double curvature = 0.5 * u * (1.0 - u) * (1.0 - u) * (2.0 - 5.0 * u);
-  return (from_ - to_) / over_ * value + slope_ * slope + over_ * curvature_ * curvature;
+  const double w = share(elapsed_, braking_);
+  return gap_ / over_ * gap_slope(elapsed_ / over_) + slope_ * slope_slope(w) +
+         braking_ * curvature_ * curvature_slope(w);
 }
 
 double TimeScale::rate_curvature() const noexcept {
   if (elapsed_ >= over_) return 0.0;
-  const double u = elapsed_ / over_;
-  const double value = -60.0 * u * (1.0 - u) * (1.0 - 2.0 * u);
-  const double slope = u * (-36.0 + u * (96.0 - 60.0 * u));
-  const double curvature = 1.0 + u * (-9.0 + u * (18.0 - 10.0 * u));
-  return (from_ - to_) / (over_ * over_) * value + slope_ / over_ * slope + curvature_ * curvature;
+  const double w = share(elapsed_, braking_);
+  return gap_ / (over_ * over_) * gap_curvature(elapsed_ / over_) +
+         slope_ / braking_ * slope_curvature(w) + curvature_ * curvature_curvature(w);
 }
 
 }  // namespace seam
