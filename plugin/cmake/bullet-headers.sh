@@ -3,8 +3,9 @@
 # Bullet's inverse-dynamics libraries are packaged without their headers. This puts the headers that belong to the
 # installed Bullet into DIR, laid out as Bullet installs its others (BulletInverseDynamics/, InverseDynamics/): from
 # the source tree that $BULLET_SOURCE_DIR names, else from Debian's source package of the installed version, with
-# apt sources and lists of its own. DIR appears whole or not at all; DIR/made-from says what that is (a file
-# called version would hide C++20's <version>), and nothing is done where it is still right. Exit 2, with one line on stderr, where the headers cannot be had.
+# apt sources and lists of its own. DIR appears whole or not at all; DIR/made-from says what it was made from (a
+# file called version would hide C++20's <version>), and nothing is done where that is still right. Exit 2, with one
+# line on stderr, where the headers cannot be had.
 set -eu
 export LC_ALL=C
 
