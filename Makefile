@@ -5,7 +5,7 @@ packages := g++ ccache cmake ninja-build pkg-config xz-utils libeigen3-dev libbu
 tools := clang-format clang-tidy
 testing := chromium doxygen dpkg-dev file
 documenting := doxygen
-fuzzing := clang libclang-rt-14-dev
+fuzzing := clang libclang-rt-dev
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
 .PHONY: help bench test debug asan tsan fuzz format tidy micro docs meshes page readme clean
 .PRECIOUS: build/%/build.ninja

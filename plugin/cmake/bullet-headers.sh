@@ -3,8 +3,9 @@
 # Bullet's inverse-dynamics libraries are packaged without their headers. This puts the headers that belong to the
 # installed Bullet into DIR, laid out as Bullet installs its others (BulletInverseDynamics/, InverseDynamics/): from
 # the source tree that $BULLET_SOURCE_DIR names, else from Debian's source package of the installed version, with
-# apt sources and lists of its own. DIR appears whole or not at all; DIR/version says what it was made from, and
-# nothing is done where that is still right. Exit 2, with one line on stderr, where the headers cannot be had.
+# apt sources and lists of its own. DIR appears whole or not at all; DIR/made-from says what it was made from (a
+# file called version would hide C++20's <version>), and nothing is done where that is still right. Exit 2, with one
+# line on stderr, where the headers cannot be had.
 set -eu
 export LC_ALL=C
 
@@ -34,7 +35,8 @@ else
   [ -n "$version" ] ||
     fail "the installed Bullet lacks its inverse-dynamics headers: set BULLET_SOURCE_DIR to its source"
 fi
-have=$(cat "$dir/version" 2>/dev/null) || have=
+[ ! -f "$dir/version" ] || mv "$dir/version" "$dir/made-from" # its name in folders made before
+have=$(cat "$dir/made-from" 2>/dev/null) || have=
 case $have in
   "$version") exit 0 ;;
   "$installed from "*) [ -n "$source" ] || exit 0 ;;
@@ -64,7 +66,7 @@ Dir::State::lists "$work/lists";
 Dir::Cache "$work/cache";
 END
   apt-get -c apt.conf -q update
-  apt-get -c apt.conf -q source --download-only "bullet=$version"
+  apt-get -c apt.conf -q source --download-only --tar-only "bullet=$version"
 }
 
 if [ -z "$source" ]; then
@@ -89,7 +91,7 @@ cp "$source"/src/BulletInverseDynamics/*.hpp "$new/BulletInverseDynamics"
 cp "$source"/src/BulletInverseDynamics/details/*.hpp "$new/BulletInverseDynamics/details"
 cp "$source"/Extras/InverseDynamics/*.hpp "$new/InverseDynamics"
 ln -s "$include/LinearMath" "$new/LinearMath" # details/*.hpp include it as ../../LinearMath
-echo "$version" >"$new/version"
+echo "$version" >"$new/made-from"
 chmod -R u+w,go+rX "$new"
 rm -rf "$dir"
 mv -T "$new" "$dir"

@@ -17,8 +17,8 @@ mv "$prefix.new/usr" "$prefix"
 rm -rf "$prefix.new"
 
 depends=$(dpkg-deb -f "$packages"/libseam0_*.deb Depends)
-for library in libbullet3.24 libbullet-extras3.24 liburdfdom-model3.0 libassimp5 libyaml-cpp0.7 libc6; do
-  [[ $depends == *"$library"* ]] || complain "libseam0 does not depend on $library: $depends"
+for library in libbullet libbullet-extras liburdfdom-model libassimp libyaml-cpp libc; do
+  [[ $depends =~ (^|[ ])$library[0-9] ]] || complain "libseam0 does not depend on $library: $depends"
 done
 [[ $(dpkg-deb -f "$packages"/libseam-dev_*.deb Depends) == *"libseam0 (= "* ]] || complain "libseam-dev takes any libseam0"
 

@@ -142,7 +142,7 @@ void SmoothingSpline::add_samples(const Eigen::VectorXd& time, const Eigen::Matr
         0.5 * (time(std::min(i + 1, N - 1)) - time(std::max<Eigen::Index>(i - 1, 0))) / spacing_;
     for (int j = 0; j < terms; ++j) {
       const double weighted = share * b(j);
-      band.col(at.cell + j).head(terms - j) += weighted * b.tail(terms - j);
+      for (int k = j; k < terms; ++k) band(k - j, at.cell + j) += weighted * b(k);
       coefficients_.row(at.cell + j) += weighted * values.row(i);
     }
   }
