@@ -99,14 +99,6 @@ TEST(Carrying, IsTrackedExactlyWithItsLiquidFrozen) {
   EXPECT_GT(measure(play(moving, Join::dmp3, moving.dt)).tool_tracking_max_m, 1e-5);
 }
 
-TEST(Pouring, FillsTheGlassAtAllPlaces) {
-  const Scene pouring = scene("pouring");
-  ASSERT_EQ(pouring.places(), 5U);
-  for (const Join method : all_joins)
-    EXPECT_GE(outcome(play(pouring, method, pouring.dt), "poured_share"), 0.95)
-        << to_string(method);
-}
-
 TEST(Pouring, TorqueStepsWithDmp2AndNotWithTheOthers) {
   Scene pouring = scene("pouring");
   pouring.pouring->places.resize(1);
@@ -119,7 +111,8 @@ TEST(Pouring, TorqueStepsWithDmp2AndNotWithTheOthers) {
 
 TEST(Pouring, MissesAGlassThatStandsElsewhere) {
   Scene pouring = scene("pouring");
-  pouring.pouring->places.resize(1);
+  ASSERT_EQ(pouring.places(), 5U);
+  pouring.pouring->places.resize(2);
   pouring.pouring->glass_at.x() += 0.15;
   EXPECT_EQ(outcome(play(pouring, Join::dmp3, pouring.dt), "poured_share"), 0.0);
 }
