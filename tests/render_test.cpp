@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include <epoxy/egl.h>
 #include <gmock/gmock.h>
 
 #include "scenes/play.hpp"
@@ -39,6 +40,42 @@ class Render : public testing::Test {
 
   std::optional<EglContext> context_;
 };
+
+EGLDisplay display_of(const EglDevice& device) {
+  return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device.handle, nullptr);
+}
+
+TEST_F(Render, DrawsOnTheListedDeviceThatIsSoftware) {
+  std::vector<EglDevice> software;
+  for (const EglDevice& device : egl_devices()) {
+    const char* extensions = eglQueryDeviceStringEXT(device.handle, EGL_EXTENSIONS);
+    ASSERT_NE(extensions, nullptr);  // a handle that EGL does not know has none
+    EXPECT_EQ(std::string(extensions).find("EGL_MESA_device_software") != std::string::npos,
+              device.software);
+    if (device.software) software.push_back(device);
+  }
+  ASSERT_EQ(software.size(), 1);
+  EXPECT_EQ(eglGetCurrentDisplay(), display_of(software[0]));
+  EXPECT_THAT(context_->renderer(), HasSubstr("llvmpipe"));
+}
+
+// By itself it takes a graphics card if there is one.
+TEST_F(Render, PrefersAGraphicsCardUnlessToldOtherwise) {
+  context_.reset();
+  std::optional<EglContext> card;
+  try {
+    card.emplace("gpu");
+  } catch (const Error&) {
+    context_.emplace("auto");
+    EXPECT_THAT(context_->renderer(), HasSubstr("llvmpipe"));
+    return;
+  }
+  const std::string name = card->renderer();
+  EXPECT_THAT(name, testing::Not(HasSubstr("llvmpipe")));
+  card.reset();
+  context_.emplace("auto");
+  EXPECT_EQ(context_->renderer(), name);
+}
 
 Replay empty_scene(const Camera& camera) {
   Replay replay;
@@ -347,7 +384,18 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadRender{"NoDriver", "-o @a.png", "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere",
                   "EGL: no driver for OpenGL 3.3 is there, it is needed for pictures (Debian: "
-                  "libegl1 libgl1-mesa-dri libopengl0)"},
+                  "libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0)"},
+        BadRender{"NoCard", "--device gpu -o @a.png",
+                  "LIBGL_ALWAYS_SOFTWARE=1 "
+                  "__EGL_VENDOR_LIBRARY_FILENAMES=/usr/share/glvnd/egl_vendor.d/50_mesa.json",
+                  "EGL: no graphics card with OpenGL 3.3 can be used: its driver must be "
+                  "installed, and you must be allowed to open /dev/dri/render* or /dev/nvidia*"},
+        BadRender{"NoSoftware", "--device software -o @a.png",
+                  "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere",
+                  "EGL: llvmpipe is not there, it is needed for pictures without a graphics card "
+                  "(Debian: libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0)"},
+        BadRender{"OtherSoftware", "--device software -o @a.png", "GALLIUM_DRIVER=softpipe",
+                  "EGL: llvmpipe is not there"},
         BadRender{"NoFfmpeg", "-o @a.mp4", "PATH=/nowhere",
                   "ffmpeg: cannot be run, it is needed for movies (Debian: ffmpeg)"},
         BadRender{"NoFolder", "-o @nowhere/a.png", "", "a.png: cannot be written"},
