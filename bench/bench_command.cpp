@@ -18,6 +18,7 @@
 #include "bench/page.hpp"
 #include "bench/progress.hpp"
 #include "bench/report.hpp"
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 
 namespace seam {
@@ -107,7 +108,8 @@ bool bench(const Options& options) {
     return true;
   }
   std::optional<Baselines> baselines;
-  if (!options.baselines.empty()) baselines.emplace(options.baselines);
+  if (!options.baselines.empty())
+    baselines.emplace(options.update ? options.baselines : own_or_given(options.baselines));
   require_gnuplot();
   const auto comparisons =
       compare(read_scenes(options), read_methods(options.methods), options.jobs, show_progress);

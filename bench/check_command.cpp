@@ -8,6 +8,7 @@
 
 #include "bench/check.hpp"
 #include "bench/markdown.hpp"
+#include "scenes/own_folders.hpp"
 
 namespace seam {
 
@@ -120,7 +121,7 @@ void print(const RobotModel& robot, const RobotCheck& check, const std::string& 
 }
 
 void look_over(const Options& options) {
-  const RobotModel robot = RobotModel::read(options.urdf, options.reading);
+  const RobotModel robot = RobotModel::read(own_or_given(options.urdf), options.reading);
   const RobotCheck check = check_robot(robot, options.check);
   print(robot, check, options.urdf);
   if (check.verdict() == Verdict::failed) throw CLI::RuntimeError(1);

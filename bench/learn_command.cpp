@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 #include <seam/learn.hpp>
 #include <seam/orientation.hpp>
@@ -66,8 +67,8 @@ void print_summary(const Demonstration& demo, const Primitive& primitive, const 
 
 void learn_file(Options options) {
   options.learning.gains = Gains::critical(options.stiffness);
-  const Demonstration demo =
-      about_reference(Demonstration::read(options.demonstration, options.derivatives), options);
+  const Demonstration demo = about_reference(
+      Demonstration::read(own_or_given(options.demonstration), options.derivatives), options);
   const Primitive primitive = learn(demo, options.learning);
   const LearnReport report = assess(demo, primitive);
   write_primitive(options.out, primitive);

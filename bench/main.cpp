@@ -10,9 +10,10 @@
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app{"seam: movement primitives on a Bullet arm, joined without a step in torque"};
+  CLI::App app{"seam: movement primitives on a Bullet arm, joined without a step in torque",
+               "seam"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", SEAM_VERSION);
+  app.set_version_flag("--version", "seam " SEAM_VERSION);
   seam::add_commands(app);
 
   try {

@@ -11,6 +11,7 @@
 #include "bench/columns.hpp"
 #include "bench/markdown.hpp"
 #include "bench/run_json.hpp"
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 #include <seam/robot_model.hpp>
 
@@ -135,7 +136,7 @@ void print(const Run& run, const Options& options) {
 void measure_recording(const Options& options) {
   Run run;
   run.recording = read(options.recording, options.joins);
-  if (!options.urdf.empty()) set_limits(options.urdf, run.recording);
+  if (!options.urdf.empty()) set_limits(own_or_given(options.urdf), run.recording);
   std::optional<Recording> half, compared;
   if (!options.half.empty()) half = read(options.half, options.joins);
   if (!options.compared.empty()) compared = read(options.compared, options.joins);

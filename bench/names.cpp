@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scenes/own_folders.hpp"
+
 namespace seam {
 
 namespace {
 
 std::string file_of(const std::string& name, const std::string& folder) {
   if (std::filesystem::is_regular_file(name) || name.find_first_of("./") != std::string::npos)
-    return name;
+    return own_or_given(name);
   return folder + "/" + name + ".yaml";
 }
 
@@ -27,15 +29,15 @@ std::vector<std::string> files_of(const std::vector<std::string>& names,
 }  // namespace
 
 std::string scene_file(const std::string& scene) {
-  return file_of(scene, SEAM_SCENES);
+  return file_of(scene, own_folder() + "/scenes");
 }
 
 std::vector<std::string> scene_files(const std::vector<std::string>& scenes) {
-  return files_of(scenes, SEAM_SCENES);
+  return files_of(scenes, own_folder() + "/scenes");
 }
 
 std::vector<std::string> experiment_files(const std::vector<std::string>& experiments) {
-  return files_of(experiments, SEAM_EXPERIMENTS);
+  return files_of(experiments, own_folder() + "/bench/experiments");
 }
 
 std::vector<Join> read_methods(const std::vector<std::string>& names) {

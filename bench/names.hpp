@@ -7,8 +7,8 @@
 
 namespace seam {
 
-/// Files that are named on the command line: as they are, or as a name of one of the project's own; all of those
-/// where none is named.
+/// Files that are named on the command line: as they are, or as a name or path of one of seam's own (own_folder()); all of
+/// those where none is named.
 std::string scene_file(const std::string& scene);
 std::vector<std::string> scene_files(const std::vector<std::string>& scenes);
 std::vector<std::string> experiment_files(const std::vector<std::string>& experiments);

@@ -80,7 +80,8 @@ void print_joins(const Sequencer& sequencer, const std::vector<std::string>& nam
 
 void roll_out(const Options& options) {
   const Join method = join_from_name(options.method);
-  const SequenceFile file = read_sequence(options.sequence, with_own_folders(options.allowed));
+  const SequenceFile file =
+      read_sequence(own_or_given(options.sequence), with_own_folders(options.allowed));
   Sequencer sequencer(file.sequence, method, file.start_state());
   const std::vector<double> rows = play(sequencer, options);
   Table table{columns_for(file.sequence.coordinates()), {}};

@@ -6,6 +6,8 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include "scenes/own_folders.hpp"
+
 namespace seam::micro {
 
 namespace {
@@ -46,7 +48,7 @@ Sequence there_and_back(const Primitive& there, const Primitive& back) {
 }  // namespace
 
 const RobotModel& pa10() {
-  static const RobotModel model = RobotModel::read(SEAM_ASSETS "/pa10/pa10.urdf");
+  static const RobotModel model = RobotModel::read(own_folder() + "/assets/pa10/pa10.urdf");
   return model;
 }
 

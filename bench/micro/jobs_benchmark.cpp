@@ -5,6 +5,7 @@
 #include "bench/compare.hpp"
 #include "bench/micro/benchmarks.hpp"
 #include "bench/micro/pair.hpp"
+#include "scenes/own_folders.hpp"
 
 namespace seam::micro {
 
@@ -21,7 +22,8 @@ Timed plays(const std::shared_ptr<const Scene>& scene, int jobs) {
 
 void add_jobs_benchmarks() {
   add_pair("scene line with all methods, 2 jobs / 1 job", no_bar, 10, [] {
-    const auto scene = std::make_shared<const Scene>(Scene::read(SEAM_SCENES "/line.yaml"));
+    const auto scene =
+        std::make_shared<const Scene>(Scene::read(own_folder() + "/scenes/line.yaml"));
     return Pair{plays(scene, 2), plays(scene, 1)};
   });
 }

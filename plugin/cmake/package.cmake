@@ -1,5 +1,5 @@
 # Debian packages, made by `cpack --preset package`: libseam0 with the libraries, libseam-dev with what it takes to build
-# on them.
+# on them, seam with the program.
 
 set(CPACK_PACKAGE_NAME seam)
 set(CPACK_PACKAGE_CONTACT "seam authors")
@@ -8,6 +8,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime development)
+if(SEAM_PROGRAM)
+  list(APPEND CPACK_COMPONENTS_ALL program)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libs)
@@ -24,8 +27,17 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Movement primitives on a Bullet arm
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libseam${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION}), \
 libeigen3-dev (>= 3.4), libbullet-dev, libbullet-extras-dev")
 if(NOT BUILD_SHARED_LIBS)
-  set(CPACK_COMPONENTS_ALL development)
+  list(REMOVE_ITEM CPACK_COMPONENTS_ALL runtime)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libbullet-dev, libbullet-extras-dev, \
 liburdfdom-dev, libconsole-bridge-dev, libassimp-dev, libtinyxml2-dev, libyaml-cpp-dev")
 endif()
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME seam)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Movement primitives on a Bullet arm: the program, its scenes and the arm that they play.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# What it loads or starts, which no linker sees.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
+  "gnuplot-nox | gnuplot, fonts-dejavu-core, libegl1, libegl-mesa0, libgl1-mesa-dri, libopengl0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS ffmpeg)
 include(CPack)

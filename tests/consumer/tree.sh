@@ -24,7 +24,7 @@ done
 
 libraries=$(dirname "$(find "$prefix" -name libseam-core.so)")
 for folder in "$@"; do
-  named=$(grep -rlF "$folder" "$prefix" || true)
+  named=$(grep -rlE "(^|[^A-Za-z0-9_./-])$folder(/|\$)" "$prefix" || true)
   [ -z "$named" ] || complain "names $folder: $named"
 done
 readelf -d "$libraries/libseam-core.so" | grep -qi bullet && complain "libseam-core needs Bullet"
