@@ -38,7 +38,7 @@ struct RobotCheck {
   double reach = 0.0;           // [m] largest distance of its origin from the root link's
   double mean_reach = 0.0;      // [m]
   Eigen::AlignedBox3d reached;  // [m] where it came, in the root link's frame
-  std::vector<Check> checks;    // limits, inertia, meshes, dynamics, holding, reach
+  std::vector<Check> checks;    // URDF, limits, inertia, meshes, dynamics, holding, reach
 
   Verdict verdict() const;  // the worst
 };

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "text.hpp"
 #include <seam/error.hpp>
 
 namespace seam {
@@ -39,22 +40,11 @@ double anywhere(const Joint& joint, std::mt19937_64& random) {
   return std::min(std::max(choices[random() % 8], low), high);
 }
 
-// Has no mass, or is a point or a line.
+// Has no mass, is a point or a line, or has a moment that no body has. (One whose moments are all positive adds to M(q)
+// everywhere, whether they keep the triangle rule or not.)
 bool lacks_inertia(const Body& body) {
   const Eigen::Matrix3d& inertia = body.inertial.inertia;
   return inertia.selfadjointView<Eigen::Lower>().eigenvalues()(0) <= 1e-12 * inertia.trace();
-}
-
-// Whether anything that the joint moves has mass.
-bool moves_mass(const RobotModel& model, std::size_t joint) {
-  std::vector<bool> moved(model.joints.size(), false);
-  moved[joint] = true;
-  for (std::size_t i = joint; i < model.joints.size(); ++i) {
-    const int parent = model.joints[i].parent;
-    if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = true;
-    if (moved[i] && model.bodies[i].inertial.mass > 0.0) return true;
-  }
-  return false;
 }
 
 // M(q), and what its diagonal would be, at the most, if the joints' axes were turned.
@@ -112,12 +102,18 @@ Weakest weakest(const JointInertia& inertia) {
   return {solver.eigenvalues()(0), solver.eigenvectors().col(0).cwiseAbs()};
 }
 
-[[noreturn]] void refuse(const RobotModel& model, std::size_t body, const std::string& path,
-                         const std::string& why) {
-  const char* const what = model.bodies[body].inertial.mass > 0.0 ? "inertia" : "mass";
+[[noreturn]] void refuse(const RobotModel& model, std::size_t body, const std::string& path) {
+  const Inertial& inertial = model.bodies[body].inertial;
+  const Eigen::Vector3d moments = inertial.inertia.selfadjointView<Eigen::Lower>().eigenvalues();
+  const std::string has =
+      moments(0) < -rounding * inertial.inertia.norm()
+          ? text("has the principal moments of inertia ", moments(0), ", ", moments(1), ", ",
+                 moments(2), " kg m^2, with what is fixed to it")
+          : text("has no ", inertial.mass > 0.0 ? "inertia" : "mass",
+                 ", nor has any link fixed to it");
   throw Error(path + ": link \"" + model.bodies[body].link + "\"",
-              std::string("has no ") + what + ", nor has any link fixed to it, but joint \"" +
-                  model.joints[body].name + "\" moves it" + why + ": must be > 0");
+              text(has, ", but joint \"", model.joints[body].name,
+                   "\" moves it, and in some position nothing behind it resists: must be > 0"));
 }
 
 }  // namespace
@@ -131,8 +127,6 @@ void require_inertia(const RobotModel& model, const std::string& path) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (lacks_inertia(model.bodies[i])) suspects.push_back(i);
   if (suspects.empty()) return;
-  for (const std::size_t i : suspects)
-    if (!moves_mass(model, i)) refuse(model, i, path, "");
   std::mt19937_64 random(1);
   Eigen::VectorXd q(model.dof());
   for (int k = 0; k < positions; ++k) {
@@ -144,7 +138,7 @@ void require_inertia(const RobotModel& model, const std::string& path) {
     for (const std::size_t i : suspects)
       if (motion(static_cast<Eigen::Index>(i)) > motion(static_cast<Eigen::Index>(suspect)))
         suspect = i;
-    refuse(model, suspect, path, ", and in some position nothing behind it resists");
+    refuse(model, suspect, path);
   }
 }
 
