@@ -15,6 +15,7 @@ namespace seam {
 namespace {
 
 constexpr int random_positions = 100;
+constexpr int few_positions = 2;  // of the random ones
 constexpr int special_positions = 300;
 constexpr double least_share = 1e-5;
 constexpr double negative = -1e-9;  // share that no rounding makes
@@ -161,7 +162,7 @@ class Inertia {
     Positions positions(model_);
     const auto any = [&] { return positions.any(); };
     Look seen = look(model_, random_positions, any);
-    while (seen.weak > random_positions / 2 && seen.worst.share > negative) {
+    while (seen.weak > few_positions && seen.worst.share > negative) {
       if (!add_inertia(seen.worst.motion)) break;
       seen = look(model_, random_positions, any);
     }
@@ -217,7 +218,7 @@ class Inertia {
   void warn(const Weakest& weakest) {
     const std::size_t i = suspect_in(weakest);
     place(i).warn(text(lack(i), ", and in some positions nothing behind it resists joint \"",
-                       model_.joints[i].name, "\": keep away from there"));
+                       model_.joints[i].name, "\": accelerations have no bound there"));
   }
 
   double mass(std::size_t i) const { return model_.bodies[i].inertial.mass; }

@@ -36,19 +36,19 @@ Eigen::Matrix3d with_moments(const Eigen::Matrix3d& axes, const Eigen::Vector3d&
 }
 
 /// Takes moments for 0 that are so but for rounding; warns of those that no body has.
-void judge_moments(Eigen::Matrix3d& inertia, const UrdfPlace& place) {
+void judge_moments(Eigen::Matrix3d& inertia, double mass, const UrdfPlace& place) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(inertia);
   const Eigen::Vector3d& moments = principal.eigenvalues();
   const double size = moments.cwiseAbs().maxCoeff();
+  const double zero = 1e-12 * (size + std::abs(mass));  // gyrates by less than 1 µm
   const std::string found = text("inertia has the principal moments ", moments[0], ", ", moments[1],
                                  ", ", moments[2], " kg m^2, ");
   require_at_most(largest, size, "moment of inertia", "kg m^2", place);
-  if (moments[0] < -rounded * size) {
+  if (moments[0] < -std::max(rounded * size, zero)) {
     place.warn(found + "must all be > 0: counted as it is, with what it is fixed to");
-  } else if (moments[0] <= 1e-12 * size) {
-    place.warn(found + "must all be > 0: taken for 0 where they are not");
-    inertia = with_moments(principal.eigenvectors(),
-                           (moments.array() > 1e-12 * size).select(moments, 0.0));
+  } else if (moments[0] <= zero) {
+    place.warn(found + "must all be > 0: taken for 0 where they are 0 but for rounding");
+    inertia = with_moments(principal.eigenvectors(), (moments.array() > zero).select(moments, 0.0));
   } else if (moments[2] > (1.0 + rounded) * (moments[0] + moments[1])) {
     const double excess = 100.0 * (moments[2] / (moments[0] + moments[1]) - 1.0);
     place.warn(found + text("the largest exceeds the sum of the others by ", excess,
@@ -205,7 +205,7 @@ Inertial inertial_from_urdf(const urdf::Inertial& inertial, const UrdfPlace& pla
   if (in_com.mass < 0.0)
     place.warn(text("mass ", in_com.mass,
                     " kg, must be >= 0: counted as it is, with what it is fixed to"));
-  if (!is_point) judge_moments(in_com.inertia, place);
+  if (!is_point) judge_moments(in_com.inertia, in_com.mass, place);
   return pose_from_urdf(inertial.origin) * in_com;
 }
 
