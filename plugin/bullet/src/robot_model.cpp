@@ -185,11 +185,12 @@ class ModelBuilder {
   void require_masses() {
     for (const Body& body : model_.bodies) {
       const Inertial& all = body.inertial;
-      const bool none = all.mass == 0.0 && all.com.isZero(0.0) && all.inertia.isZero(0.0);
-      if (none || (all.mass > 0.0 && all.com.allFinite() && all.com.norm() <= farthest)) continue;
-      place("link", body.link)
-          .refuse(text("mass ", all.mass, " kg around ", all.com.transpose(),
-                       " m, with what is fixed to it, must be >= 0 and within ", farthest, " m"));
+      if (all.mass == 0.0 && all.com.isZero(0.0) && all.inertia.isZero(0.0)) continue;
+      const UrdfPlace here = place("link", body.link);
+      if (!(all.mass > 0.0 && all.com.allFinite()))
+        here.refuse(text("mass ", all.mass, " kg, with what is fixed to it, must be > 0"));
+      if (!(all.com.norm() <= farthest))
+        here.refuse(text("its centre of mass is more than ", farthest, " m from its joint"));
     }
   }
 
