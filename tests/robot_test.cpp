@@ -143,6 +143,26 @@ TEST_P(RobotOf, PlacesEveryLinkWhereOrocosKdlDoes) {
   }
 }
 
+// Links beyond the triangle rule, sensors with negative moments, points that become balls.
+TEST(Robot, AcceleratesAsAskedWhereItsUrdfIsOdd) {
+  for (const char* file : {"/robots/odd_arm.urdf", "/robots/point_masses.urdf"}) {
+    RandomRobot random(25);
+    EXPECT_LE(worst_acceleration_error(std::string(SEAM_TEST_DATA) + file, random, 100), 1e-9)
+        << file;
+  }
+}
+
+TEST(Robot, KeepsTheWarningsOfItsUrdfAndPrintsNothing) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const std::string file = SEAM_TEST_DATA "/robots/odd_arm.urdf";
+  seam::World world;
+  const auto robot = seam::Robot::load(file, *world);
+  EXPECT_EQ(robot.model().warnings.size(), 10U);
+  EXPECT_EQ(robot.model().warnings, seam::RobotModel::read(file).warnings);
+  EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Files, RobotOf, testing::Values(pa10, skew_tree, planar_arm));
 
 TEST(Robot, AcceleratesAsAskedOnRandomTrees) {
@@ -226,6 +246,24 @@ TEST(Robot, PutsItsShapesWhereTheUrdfSaysOnARotatedBase) {
     EXPECT_LE((hit("hull", Vector3d::UnitX()) - Vector3d(0.1, 0, 0)).norm(), accuracy);
     EXPECT_LE((hit("hull", Vector3d::UnitZ()) - Vector3d(0, 0, 0.3)).norm(), accuracy);
   }
+}
+
+TEST(Robot, CollidesAsBulletsCapsuleAlongZ) {
+  const TempFolder folder;
+  const std::string file = folder.write(
+      "x.urdf",
+      R"(<robot name="r"><link name="a"><collision><origin xyz="0.1 0 0" rpy="0.3 0 0"/>)"
+      R"(<geometry><capsule radius="0.1" length="0.4"/></geometry></collision></link></robot>)");
+  seam::World world;
+  const auto robot = seam::Robot::load(file, *world);
+  Isometry3d X_world_shape = Isometry3d::Identity();
+  X_world_shape.translate(Vector3d(0.1, 0.0, 0.0));
+  X_world_shape.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));
+  const double accuracy = 1e-3;
+  const auto hit = [&](const Vector3d& axis) { return hit_along(*world, X_world_shape, axis); };
+  EXPECT_LE((hit(Vector3d::UnitZ()) - Vector3d(0, 0, 0.3)).norm(), accuracy);
+  EXPECT_LE((hit(-Vector3d::UnitZ()) - Vector3d(0, 0, -0.3)).norm(), accuracy);
+  EXPECT_LE((hit(Vector3d::UnitX()) - Vector3d(0.1, 0, 0)).norm(), accuracy);
 }
 
 /// Links (−1: the base) of the robot that touch each other after one step, as "i-j" with i < j.
