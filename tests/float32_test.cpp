@@ -73,7 +73,7 @@ Played there_and_back(const std::string& urdf, seam::Join join, int substeps = 1
   return run;
 }
 
-double worst_acceleration_error(const std::string& urdf) {
+double worst_acceleration_error(const std::string& urdf, double range = 3.0) {
   World world;
   seam::Robot arm = seam::Robot::load(urdf, world.bullet, tilted());
   seam::InverseDynamics dynamics(arm.model());
@@ -83,7 +83,7 @@ double worst_acceleration_error(const std::string& urdf) {
   VectorXd torque(arm.dof()), q(arm.dof()), before(arm.dof()), after(arm.dof());
   for (int i = 0; i < 1000; ++i) {
     const VectorXd qdd = random.vector(arm.dof(), 30.0);
-    arm.reset(random.vector(arm.dof(), 3.0), random.vector(arm.dof(), 4.0));
+    arm.reset(random.vector(arm.dof(), range), random.vector(arm.dof(), 4.0));
     arm.state(q, before);  // as rounded
     dynamics.torque(q, before, qdd, torque);
     for (int j = 0; j < arm.dof(); ++j)
@@ -105,11 +105,12 @@ TEST_P(Float32, AcceleratesAsItsInverseDynamicsAsks) {
   EXPECT_LE(worst, acceleration_bar);
 }
 
-// Links beyond the triangle rule, sensors with negative moments, points that become balls.
+// Links beyond the triangle rule, sensors with negative moments, points that become balls; in the neck's limits, within
+// which its joints do not line up.
 TEST(Float32OfOddUrdfs, AcceleratesAsItsInverseDynamicsAsks) {
-  for (const char* file : {"/robots/odd_arm.urdf", "/robots/point_masses.urdf"})
-    EXPECT_LE(worst_acceleration_error(std::string(SEAM_TEST_DATA) + file), acceleration_bar)
-        << file;
+  const std::string robots = SEAM_TEST_DATA "/robots/";
+  EXPECT_LE(worst_acceleration_error(robots + "odd_arm.urdf"), acceleration_bar);
+  EXPECT_LE(worst_acceleration_error(robots + "point_masses.urdf", 0.6), acceleration_bar);
 }
 
 TEST_P(Float32, FollowsItsSequence) {

@@ -248,6 +248,25 @@ TEST(Robot, PutsItsShapesWhereTheUrdfSaysOnARotatedBase) {
   }
 }
 
+/// Whether a ball of 10 mm here would touch anything.
+bool touches(btMultiBodyDynamicsWorld& world, const Vector3d& at) {
+  struct Callback : btCollisionWorld::ContactResultCallback {
+    btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                             const btCollisionObjectWrapper*, int, int) override {
+      touched = touched || point.getDistance() <= 0;
+      return 0;
+    }
+    bool touched = false;
+  } callback;
+  btSphereShape shape(btScalar(0.01));
+  btCollisionObject ball;
+  ball.setCollisionShape(&shape);
+  ball.setWorldTransform(
+      btTransform(btQuaternion::getIdentity(), btVector3(at.x(), at.y(), at.z())));
+  world.contactTest(&ball, callback);
+  return callback.touched;
+}
+
 TEST(Robot, CollidesAsBulletsCapsuleAlongZ) {
   const TempFolder folder;
   const std::string file = folder.write(
@@ -259,11 +278,13 @@ TEST(Robot, CollidesAsBulletsCapsuleAlongZ) {
   Isometry3d X_world_shape = Isometry3d::Identity();
   X_world_shape.translate(Vector3d(0.1, 0.0, 0.0));
   X_world_shape.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));
-  const double accuracy = 1e-3;
-  const auto hit = [&](const Vector3d& axis) { return hit_along(*world, X_world_shape, axis); };
-  EXPECT_LE((hit(Vector3d::UnitZ()) - Vector3d(0, 0, 0.3)).norm(), accuracy);
-  EXPECT_LE((hit(-Vector3d::UnitZ()) - Vector3d(0, 0, -0.3)).norm(), accuracy);
-  EXPECT_LE((hit(Vector3d::UnitX()) - Vector3d(0.1, 0, 0)).norm(), accuracy);
+  const Vector3d outwards[] = {Vector3d::UnitZ(), -Vector3d::UnitZ(), Vector3d::UnitX(),
+                               -Vector3d::UnitY(), Vector3d(0.6, 0.0, 0.8)};
+  for (const Vector3d& n : outwards) {
+    const Vector3d centre(0.0, 0.0, n.z() == 0.0 ? 0.0 : std::copysign(0.2, n.z()));
+    EXPECT_TRUE(touches(*world, X_world_shape * (centre + 0.109 * n))) << n.transpose();
+    EXPECT_FALSE(touches(*world, X_world_shape * (centre + 0.111 * n))) << n.transpose();
+  }
 }
 
 /// Links (−1: the base) of the robot that touch each other after one step, as "i-j" with i < j.

@@ -166,6 +166,7 @@ class Inertia {
       if (!add_inertia(seen.worst.motion)) break;
       seen = look(model_, random_positions, any);
     }
+    if (suspects_.empty()) return;
     if (seen.weak > random_positions / 2 || seen.worst.share < negative) refuse(seen.worst);
     seen = look(model_, special_positions, [&] { return positions.special(); });
     if (seen.worst.share < negative) refuse(seen.worst);
