@@ -147,8 +147,9 @@ void add_check_command(CLI::App& app) {
       ->capture_default_str();
   command.footer(
       "Exit code 1 if a mesh is missing, or Bullet does not make the accelerations that its "
-      "inverse dynamics asks for; "
-      "warnings leave it at 0. Example: seam check arm_description/urdf/arm.urdf --package-path .");
+      "inverse dynamics asks for "
+      "to 1e-7 of the largest; warnings leave it at 0. Example: seam check "
+      "arm_description/urdf/arm.urdf --package-path .");
   command.callback([options] { look_over(*options); });
 }
 

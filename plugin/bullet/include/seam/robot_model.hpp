@@ -105,8 +105,8 @@ struct RobotModel {
   std::vector<Body> bodies;   // parents before children
   std::vector<Frame> frames;  // one per URDF link, the root link first
 
-  std::vector<std::string>
-      missing_meshes;  // left out: link, name, where it was looked for; a line each
+  /// Left out, a line each: link, name, where the file was looked for.
+  std::vector<std::string> missing_meshes;
   /// What is odd about the URDF, and what was done about it: a line each, as in
   /// `link "b": mass 1e-20 kg: taken for none`.
   std::vector<std::string> warnings;
@@ -129,18 +129,20 @@ struct RobotModel {
   /// A link without inertial, or with one of mass 0, has none (as in Bullet; other readers take the former for 1 kg); one
   /// of some mass with an inertia of zeros is a point. Where a joint moves such links alone (the "dummy links" of a
   /// wrist), what is behind them must make up for it: the joints' inertia matrix, scaled to a diagonal of ones, must
-  /// have no eigenvalue below 1e-5 in a few hundred positions within the limits, joints at 0, at right angles and at a
-  /// limit among them. With less, rounding shows in Bullet's accelerations (1e-9 rad/s²).
+  /// have no eigenvalue below 1e-5 in 100 random positions within the limits. Where that fails, the heaviest point that is
+  /// turned gets the inertia of a ball of water of its mass, with a warning, and then the next, as long as it helps. Where
+  /// it fails in special positions only (300 with joints at 0, at right angles and at limits, such as a wrist without mass
+  /// that is stretched), a warning says so: there, accelerations have no bound.
   ///
-  /// Refused, with file, element and value, is what cannot be simulated: XML and numbers that cannot be read; xacro that is
-  /// not expanded; links that are not in one tree; a link that is named twice, or is not there; a type of joint that URDF
-  /// and Bullet do not know; a zero axis; bodies whose mass, with all that is fixed to them, is negative; bodies without
-  /// inertia, or with a negative moment, that leave the joints' inertia matrix as above; masses and moments beyond 1e15,
-  /// distances and position limits beyond 1e9; and a mesh file that is not found, unless the settings leave it out. The
-  /// base is fixed: its mass and inertia move nothing, and are no reason to refuse it.
+  /// Refused, with file, element and value, is what cannot be simulated: XML and numbers that cannot be read, or are not
+  /// finite; xacro that is not expanded; links that are not in one tree, named twice, or not there; a type of joint that
+  /// neither URDF nor Bullet knows; a zero axis; moving bodies whose mass, with all that is fixed to them, is negative;
+  /// moving bodies without mass that leave the joints' inertia matrix singular in most positions, or with a negative moment
+  /// that makes it negative in any; masses and moments beyond 1e15, distances and position limits beyond 1e9; and a mesh
+  /// file that is not found, unless the settings leave it out. The base is fixed: its mass and inertia move nothing.
   ///
   /// Everything else that is odd is taken in, and told in `warnings`:
-  /// - inertia of a link: moments that are negative or 0 by rounding (1e-6 of the largest) are taken for 0; others that are
+  /// - inertia of a link: moments that are negative by rounding (1e-6 of the largest, or a gyration of 1 µm) are taken for 0; others that are
   ///   negative, or break the triangle rule, and masses < 0 are counted as they are: what matters is the body that the link
   ///   is part of. Products that are missing are 0, a mass without inertia is a point, less than 1e-15 kg is no mass;
   /// - joints that move nothing with mass (finger pads), and spherical, floating and planar joints, are held where they
@@ -153,8 +155,7 @@ struct RobotModel {
   ///   are left out; of vectors of too many numbers the first count; a scale of one number is that of all axes, a colour of
   ///   three is opaque.
   ///
-  /// Values that are not finite count as numbers that cannot be read. A continuous joint may go without <limit>. Not
-  /// read: <safety_controller>, <calibration>, <transmission>, textures; an undefined material counts as none. Mesh names may
+  /// A continuous joint may go without <limit>. Not read: <safety_controller>, <calibration>, <transmission>, textures; an undefined material counts as none. Mesh names may
   /// be `package://NAME/…` (folders of `package_path`, then ROS_PACKAGE_PATH, then the folders
   /// above the URDF, which may be the package or hold it), `file://…`, or relative to the URDF.
   /// @throws Error
