@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -183,12 +184,18 @@ const Refused refusals[] = {
      R"(x.urdf: link "a": moment of inertia 1e+300 kg m^2, must be at most 1e+15 in magnitude)"},
     {"LinkFarAway",
      robot(link("a") + link("b") + joint("j", "fixed", "a", "b", R"(<origin xyz="1e300 0 0"/>)")),
-     R"(x.urdf: link "b": is more than 1e+09 m from its joint)"},
+     R"(x.urdf: joint "j": is more than 1e+09 m from the joint before)"},
     {"MassFarAway",
      robot(link("a") + link("b", R"(<inertial><origin xyz="0 1e300 0"/><mass value="1"/>
              <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)") +
            joint("j", "revolute", "a", "b")),
      R"(x.urdf: link "b": its centre of mass is more than 1e+09 m from its joint)"},
+    {"JointFarAway", one_joint(std::string(limits) + R"(<origin xyz="0 0 1e300"/>)"),
+     R"(x.urdf: joint "j": is more than 1e+09 m from the joint before)"},
+    {"InertiaTooSmallForBullet",
+     robot(link("a") + link("b", inertial_element("1e-14", "1e-20", "1e-20", "1e-20")) +
+           joint("j", "revolute", "a", "b")),
+     R"(x.urdf: joint "j": moves an inertia of 3e-20 kg m^2, must be > 1e-15)"},
     {"LimitsFarAway", one_joint(R"(<limit lower="1e300" upper="2e300" effort="1" velocity="1"/>)"),
      R"(x.urdf: joint "j": lower limit 1e+300 rad, must be at most 1e+09 in magnitude)"},
     {"MimicByAHugeNumber", three_joints(R"(<mimic joint="j" multiplier="1e300"/>)", "", ""),
@@ -203,6 +210,8 @@ const Refused refusals[] = {
      "x.urdf: multiplier value (nan) is not a valid float; Could not parse mimic element for joint "
      " "
      "[j]; joint xml is not initialized correctly"},
+    {"AxisTooSmall", one_joint(std::string(limits) + R"(<axis xyz="1e-308 0 0"/>)"),
+     R"(x.urdf: joint "j": axis 1e-308 0 0, must not be zero)"},
     {"AxisZero", one_joint(std::string(limits) + R"(<axis xyz="0 0 0"/>)"),
      R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
     {"AxisWithoutXyz", one_joint(std::string(limits) + "<axis/>"),
@@ -583,6 +592,20 @@ TEST(RobotModel, MakesJointsFixedThatMoveNoMass) {
   EXPECT_EQ(model.bodies[0].visuals.size(), 1U);
 }
 
+// 199 points on links of 0.1 m that fold up: none of them resists well.
+TEST(RobotModel, ReadsALongChainOfPointsInNoTime) {
+  const std::string point = inertial_element("1", "0", "0", "0");
+  std::string content = link("0", "");
+  for (int i = 1; i < 200; ++i)
+    content += link(std::to_string(i), point) +
+               joint(std::to_string(i), "continuous", std::to_string(i - 1), std::to_string(i),
+                     R"(<origin xyz="0.1 0 0"/><axis xyz="0 0 1"/>)");
+  const auto start = std::chrono::steady_clock::now();
+  const auto model = read(robot(content));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_EQ(model.warnings.size(), 199U);
+}
+
 TEST(RobotModel, FreesWhatMimicsAHeldJoint) {
   const auto model =
       read(robot(link("a") + link("b", "") + link("c") + joint("j", "revolute", "a", "b") +
@@ -721,6 +744,8 @@ TEST(RobotModel, MakesAxesUnitAndTakesUrdfsDefault) {
   EXPECT_EQ(read(one_joint(std::string(limits) + R"(<axis xyz="0 0 -4"/>)")).joints[0].axis,
             Vector3d(0, 0, -1));
   EXPECT_EQ(read(one_joint(limits)).joints[0].axis, Vector3d(1, 0, 0));
+  EXPECT_EQ(read(one_joint(std::string(limits) + R"(<axis xyz="0 1e308 0"/>)")).joints[0].axis,
+            Vector3d(0, 1, 0));
 }
 
 TEST(RobotModel, KeepsShapesWithTheirColours) {

@@ -194,7 +194,8 @@ class Mender {
     } else {
       return;
     }
-    here.warn(std::string(name) + " \"" + value + "\", must be " + std::to_string(count) +
+    const std::string shown = value.size() > 60 ? value.substr(0, 60) + "..." : value;
+    here.warn(std::string(name) + " \"" + shown + "\", must be " + std::to_string(count) +
               " numbers: " + done);
     std::string mended;
     for (const std::string& number : numbers) mended += (mended.empty() ? "" : " ") + number;

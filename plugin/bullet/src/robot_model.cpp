@@ -57,14 +57,15 @@ class ModelBuilder {
   }
 
   void add_link(const urdf::Link& link, int index, const Eigen::Isometry3d& X_body_link) {
-    if (!(X_body_link.translation().norm() <= farthest))
-      place("link", link.name).refuse(text("is more than ", farthest, " m from its joint"));
     model_.frames.push_back({link.name, index, X_body_link});
     add_parts(link, body(index), X_body_link);
     for (const auto& joint : children(link)) {
       const urdf::Link& child = *document_.model->getLink(joint->child_link_name);
       const Eigen::Isometry3d X =
           X_body_link * pose_from_urdf(joint->parent_to_joint_origin_transform);
+      if (!(X.translation().norm() <= farthest))
+        place("joint", joint->name)
+            .refuse(text("is more than ", farthest, " m from the joint before"));
       if (joint->type == urdf::Joint::FIXED) {
         add_link(child, index, X);
       } else if (!has_mass(child)) {

@@ -220,10 +220,10 @@ Joint joint_from_urdf(const urdf::Joint& joint, const UrdfPlace& place) {
   result.name = joint.name;
   result.type = joint_type(joint, place);
   const Eigen::Vector3d axis = vector_from_urdf(joint.axis);
-  if (!(axis.norm() > 1e-6)) {
+  if (!(axis.stableNorm() > 1e-6)) {
     place.refuse(text("axis ", axis[0], " ", axis[1], " ", axis[2], ", must not be zero"));
   }
-  result.axis = axis.normalized();
+  result.axis = axis.stableNormalized();
   if (joint.dynamics) {
     result.damping = not_negative(joint.dynamics->damping, "damping", place);
     result.friction = not_negative(joint.dynamics->friction, "friction", place);
