@@ -4,6 +4,7 @@
 #include "plugin/examples/example.hpp"
 #include "tests/allocation_guard.hpp"
 #include "tests/random_robot.hpp"
+#include "tests/temp_folder.hpp"
 #include <seam/bullet.hpp>
 #include <seam/seam.hpp>
 
@@ -111,6 +112,24 @@ TEST(Float32OfOddUrdfs, AcceleratesAsItsInverseDynamicsAsks) {
   const std::string robots = SEAM_TEST_DATA "/robots/";
   EXPECT_LE(worst_acceleration_error(robots + "odd_arm.urdf"), acceleration_bar);
   EXPECT_LE(worst_acceleration_error(robots + "point_masses.urdf", 0.6), acceleration_bar);
+}
+
+TEST(Float32OfOddUrdfs, NamesAJointThatBulletDoesNotMove) {
+  const TempFolder folder;
+  const auto warnings = [&](const std::string& moment) {
+    const std::string file = folder.write(
+        "x.urdf", R"(<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1e-3"/>)"
+                  R"(<inertia ixy="0" ixz="0" iyz="0" ixx=")" +
+                      moment + R"(" iyy=")" + moment + R"(" izz=")" + moment +
+                      R"("/></inertial></link><joint name="j" type="continuous"><parent link="a"/>)"
+                      R"(<child link="b"/></joint></robot>)");
+    World world;
+    return seam::Robot::load(file, world.bullet).model().warnings;
+  };
+  EXPECT_THAT(warnings("2e-7"), testing::IsEmpty());
+  EXPECT_THAT(warnings("1e-8"),
+              testing::ElementsAre(R"(joint "j": moves an inertia of 1e-08 kg m^2, must be >= )"
+                                   "1.19209e-07 in this precision: Bullet does not move it"));
 }
 
 TEST_P(Float32, FollowsItsSequence) {

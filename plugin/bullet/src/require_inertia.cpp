@@ -300,6 +300,10 @@ class Inertia {
 
 }  // namespace
 
+Eigen::VectorXd moved_inertia(const RobotModel& model) {
+  return joint_inertia(model, model.neutral()).matrix.diagonal();
+}
+
 void require_inertia(RobotModel& model, const std::string& path) {
   Inertia(model, path).require();
 }
