@@ -146,6 +146,9 @@ const Refused refusals[] = {
      "[a]"},
     {"MassWithComma", inertial("1,5", "1", "1", "1"),
      "x.urdf: Inertial: mass [1,5] is not a float; Could not parse inertial element for Link [a]"},
+    {"MassIsAFormat", inertial("%n", "1", "1", "1"),
+     R"(x.urdf:1: <mass value="%n">, must not contain %)"},
+    {"NameIsAFormat", robot(link("%s")), R"(x.urdf:1: <link name="%s">, must not contain %)"},
     {"MassMissing", robot(link("a", "<inertial/>")),
      "x.urdf: Inertial element must have a mass element; Could not parse inertial element for Link "
      "[a]"},

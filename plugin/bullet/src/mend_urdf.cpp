@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
@@ -45,6 +46,9 @@ class Mender {
       : robot_(robot), path_(path), document_(document) {}
 
   void mend() {
+    require_no_format(robot_);
+    for (const char* read : {"material", "link", "joint"})
+      for_each(robot_, read, [this](XMLElement& element) { require_none_within(element); });
     mend_name();
     for_each(robot_, "material", [this](XMLElement& material) { mend_material(material); });
     for_each(robot_, "link", [this](XMLElement& link) { mend_link(link); });
@@ -55,6 +59,21 @@ class Mender {
   UrdfPlace place(const XMLElement& element) const {
     return {path_, std::string(element.Name()) + " \"" + attribute(element, "name") + "\"",
             document_.warnings};
+  }
+
+  // urdfdom prints some values as formats of printf.
+  void require_no_format(const XMLElement& element) const {
+    for (const auto* one = element.FirstAttribute(); one; one = one->Next()) {
+      if (one->Name() == std::string("filename") || !std::strchr(one->Value(), '%')) continue;
+      throw Error(path_ + ":" + std::to_string(element.GetLineNum()),
+                  std::string("<") + element.Name() + " " + one->Name() + "=\"" + one->Value() +
+                      "\">, must not contain %");
+    }
+  }
+
+  void require_none_within(XMLElement& element) const {
+    require_no_format(element);
+    for_each(element, nullptr, [this](XMLElement& child) { require_none_within(child); });
   }
 
   void mend_name() {
