@@ -325,7 +325,7 @@ const Warned warnings[] = {
       R"(joint "k": mimics itself: follows none)"}},
     {"MimicOfNone",
      one_joint(std::string(limits) + R"(<mimic joint="i"/>)"),
-     {R"(joint "j": mimics joint "i", which does not move: follows none)"}},
+     {R"(joint "j": mimics joint "i", which is not there: follows none)"}},
     {"MimicOfAFixedJoint",
      robot(link("a") + link("b") + link("c") +
            joint("i", "fixed", "a", "b", R"(<mimic joint="j"/>)") +

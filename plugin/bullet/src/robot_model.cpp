@@ -161,8 +161,10 @@ class ModelBuilder {
     for (int steps = 0;; ++steps) {
       const int leader = moving_joint(mimic->joint_name);
       if (leader < 0)
-        return here.warn("mimics joint \"" + mimic->joint_name +
-                         "\", which does not move: follows none");
+        return here.warn(
+            "mimics joint \"" + mimic->joint_name + "\", which " +
+            (document_.model->getJoint(mimic->joint_name) ? "does not move" : "is not there") +
+            ": follows none");
       if (steps == model_.dof()) return here.warn("mimics itself: follows none");
       const auto next = document_.model->getJoint(mimic->joint_name)->mimic;
       if (!next) {
