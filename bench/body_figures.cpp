@@ -48,6 +48,9 @@ Extent extent_of(const Geometry& shape, MeshCatalogue& meshes) {
     case Geometry::Type::cylinder:
       return {around_origin({size.x(), size.x(), size.z() / 2.0}),
               M_PI * size.x() * size.x() * size.z()};
+    case Geometry::Type::capsule:
+      return {around_origin({size.x(), size.x(), size.z() / 2.0 + size.x()}),
+              M_PI * size.x() * size.x() * (size.z() + 4.0 / 3.0 * size.x())};
     case Geometry::Type::sphere:
       return {around_origin(Eigen::Vector3d::Constant(size.x())),
               4.0 / 3.0 * M_PI * std::pow(size.x(), 3)};

@@ -36,7 +36,7 @@ const std::string& link_of(const RobotModel& robot, int body) {
 }
 
 std::string limits_of(const Joint& joint) {
-  if (joint.type == Joint::Type::continuous) return "none";
+  if (std::isinf(joint.lower) && std::isinf(joint.upper)) return "none";
   if (joint.type == Joint::Type::prismatic)
     return fmt::format("{:.4g} to {:.4g} m", joint.lower, joint.upper);
   return fmt::format("{:.3f} to {:.3f} rad ({:.0f} to {:.0f}°)", joint.lower, joint.upper,
@@ -55,7 +55,8 @@ std::string leader_of(const RobotModel& robot, const Joint& joint) {
 }
 
 std::string joints_table(const RobotModel& robot, const RobotCheck& check) {
-  Rows rows{{"joint", "type", "moves", "limits", "speed", "effort", "to hold up", "follows"}};
+  Rows rows{{"joint", "type", "moves", "limits", "speed", "effort", "to hold up", "damping",
+             "friction", "follows"}};
   for (int i = 0; i < robot.dof(); ++i) {
     const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
     const bool linear = joint.type == Joint::Type::prismatic;
@@ -64,7 +65,8 @@ std::string joints_table(const RobotModel& robot, const RobotCheck& check) {
                     with_unit(joint.speed, linear ? "m/s" : "rad/s"),
                     with_unit(joint.effort, linear ? "N" : "N·m"),
                     fmt::format("{:.0f} %", 100.0 * check.holding(i) / joint.effort),
-                    leader_of(robot, joint)});
+                    with_unit(joint.damping, linear ? "N·s/m" : "N·m·s/rad"),
+                    with_unit(joint.friction, linear ? "N" : "N·m"), leader_of(robot, joint)});
     if (!(joint.effort > 0.0)) rows.back()[6] = "n/a";
   }
   return markdown(rows, 4);
@@ -146,8 +148,9 @@ void add_check_command(CLI::App& app) {
       ->capture_default_str();
   command.footer(
       "Exit code 1 if a mesh is missing, or Bullet does not make the accelerations that its "
-      "inverse dynamics asks for; "
-      "warnings leave it at 0. Example: seam check arm_description/urdf/arm.urdf --package-path .");
+      "inverse dynamics asks for "
+      "to 1e-7 of the largest; warnings leave it at 0. Example: seam check "
+      "arm_description/urdf/arm.urdf --package-path .");
   command.callback([options] { look_over(*options); });
 }
 

@@ -101,15 +101,15 @@ TEST(CheckRobot, NamesWhatLooksWrong) {
               Contains(R"(joint "swing": velocity limit 0)"));
   EXPECT_THAT(oddities("limits", R"(lower="-3" upper="3")", ""),
               Contains(HasSubstr("lower and upper limit are both 0")));
-  EXPECT_THAT(oddities("inertia", R"(<link name="base"/>)",
+  EXPECT_THAT(oddities("URDF", R"(<link name="base"/>)",
                        R"(<link name="base"><inertial><mass value="0"/>
     <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>)"),
-              Contains(R"(link "base": its mass is 0, its inertia not)"));
+              Contains(R"(link "base": its mass is 0, its inertia not: taken for none)"));
   EXPECT_THAT(oddities("inertia", R"(iyy="0.1667" iyz="0" izz="0.1667")",
                        R"(iyy="0.001" iyz="0" izz="0.001")"),
               Contains(HasSubstr(R"(link "rod": radius of gyration 0.0224 m)")));
-  EXPECT_THAT(oddities("inertia", R"(izz="0.1667")", R"(izz="0.171")"),
-              Contains(HasSubstr(R"(link "rod": its largest moment of inertia exceeds the sum)")));
+  EXPECT_THAT(oddities("URDF", R"(izz="0.1667")", R"(izz="0.171")"),
+              Contains(HasSubstr("the largest exceeds the sum of the others by 2.08955 %")));
   EXPECT_THAT(
       oddities("inertia", R"(<origin xyz="0.5 0 0"/><mass)", R"(<origin xyz="1.5 0 0"/><mass)"),
       Contains(R"(link "rod": centre of mass 0.5 m outside its shape)"));
@@ -153,6 +153,38 @@ TEST(CheckCommand, PrintsOnePage) {
   EXPECT_LE(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 50);
 }
 
+TEST(CheckCommand, ListsWhatIsOddAboutAUrdfAndShowsDampingAndFriction) {
+  const test::Outcome outcome = test::run("check " + robots + "odd_arm.urdf");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(
+      outcome.output,
+      AllOf(
+          HasSubstr("| 0.5 N·m·s/rad |  0.25 N·m |"), HasSubstr("|      20 N·s/m |       0 N |"),
+          HasSubstr("| slide    | prismatic  | lower → hand  | 0 to 0.1 m                         "
+                    "|    none |"),
+          HasSubstr("URDF     10 to look at: warning\n"),
+          HasSubstr("- joint \"grip\": moves nothing with mass: held at 0.01 m\n"),
+          HasSubstr("- link \"upper\": visual: sphere of radius 0 m, must be > 0: left out\n")));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("FAILED")));
+}
+
+TEST(CheckRobot, ComparesDynamicsWithTheLargestAcceleration) {
+  const RobotCheck points = check(RobotModel::read(robots + "point_masses.urdf"), 100);
+  EXPECT_LE(points.acceleration_error, 1e-7 * points.largest_acceleration);
+  EXPECT_GT(points.largest_acceleration, 29.0);
+  EXPECT_LE(points.largest_acceleration, 30.0);
+  EXPECT_EQ(part(points, "dynamics").verdict, Verdict::ok);
+  const RobotCheck still =
+      check(RobotModel::read(Rod().write("x.urdf", "<robot><link name='a'/></robot>")));
+  EXPECT_EQ(part(still, "dynamics").verdict, Verdict::ok);
+}
+
+TEST(CheckRobot, TakesAJointThatSlidesWithoutEndForOneOfAMetre) {
+  const RobotCheck rod = check(Rod().with(R"(lower="0" upper="0.5")", R"(lower="1" upper="0")"));
+  EXPECT_EQ(part(rod, "dynamics").verdict, Verdict::ok);
+  EXPECT_NEAR(rod.reached.max().z(), 1.9, 0.2);
+}
+
 TEST(CheckCommand, GivesTheSameBytesForTheSameSeed) {
   const std::string call = "check " + robots + "scara.urdf --samples 100 --seed ";
   EXPECT_EQ(test::run(call + "7").output, test::run(call + "7").output);
@@ -177,9 +209,24 @@ TEST(CheckCommand, FailsWithCodeOneAndGoesOnWhereAMeshIsMissing) {
 TEST(CheckCommand, RefusesWhatIsNoRobotInOneLine) {
   const TempFolder folder;
   folder.write("x.urdf", "<robot name='r' xmlns:xacro='x'><xacro:macro/></robot>");
+  folder.write("empty.urdf", "");
+  const auto mass = [](const std::string& value) {
+    return "<robot name='r'><link name='a'><inertial><mass value='" + value +
+           "'/></inertial></link></robot>";
+  };
+  folder.write("nan.urdf", mass("nan"));
+  folder.write("huge.urdf", mass("1e300"));
+  folder.write("loop.urdf",
+               "<robot name='r'><link name='a'/><link name='b'/>"
+               "<joint name='i' type='fixed'><parent link='a'/><child link='b'/></joint>"
+               "<joint name='j' type='fixed'><parent link='b'/><child link='a'/></joint></robot>");
   for (const test::BadCall& bad :
        {test::BadCall{"NoFile", "check @none.urdf", "none.urdf: no such file"},
         {"Xacro", "check @x.urdf", "must be expanded first"},
+        {"Empty", "check @empty.urdf", "is empty"},
+        {"MassNan", "check @nan.urdf", "mass [nan] is not a float"},
+        {"Loop", "check @loop.urdf", "is its own ancestor, must be in a tree"},
+        {"Huge", "check @huge.urdf", "mass 1e+300 kg, must be at most 1e+15 in magnitude"},
         {"NoSamples", "check @x.urdf --samples 0", "--samples"},
         {"Nothing", "check", "robot is required"}})
     test::expect_refused(bad, folder);

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -64,6 +65,8 @@ std::string shape(const std::string& kind, const std::string& geometry) {
   return robot(link("a", "<" + kind + "><geometry>" + geometry + "</geometry></" + kind + ">"));
 }
 
+using Lines = std::vector<std::string>;
+
 RobotModel read(const std::string& text, const std::vector<std::string>& package_path = {}) {
   const TempFolder folder;
   return RobotModel::read(folder.write("x.urdf", text), {package_path});
@@ -107,7 +110,7 @@ const Refused refusals[] = {
      "x.urdf:2: not well-formed XML (XML_ERROR_MISMATCHED_ELEMENT)"},
     {"NoXmlAtAll", "mass: 3", "x.urdf:1: not well-formed XML (XML_ERROR_PARSING_TEXT)"},
     {"OtherRoot", "<sdf/>", "x.urdf: root element is <sdf>, must be <robot>"},
-    {"NoName", "<robot/>", "x.urdf: No name given for the robot."},
+    {"NoNameAndNoLink", "<robot/>", "x.urdf: No link elements found in urdf file"},
     {"NoLink", robot(""), "x.urdf: No link elements found in urdf file"},
     {"LinkTwice", robot(link("a") + link("a")), "x.urdf: link 'a' is not unique."},
     {"TwoRoots", robot(link("a") + link("b")),
@@ -134,8 +137,6 @@ const Refused refusals[] = {
      "x.urdf: Failed to build tree: Joint [j] is missing a parent and/or child link "
      "specification."},
 
-    {"MassNegative", inertial("-1", "1", "1", "1"),
-     R"(x.urdf: link "a": mass -1 kg, must be >= 0)"},
     {"MassNan", inertial("nan", "1", "1", "1"),
      "x.urdf: Inertial: mass [nan] is not a float; Could not parse inertial element for Link [a]"},
     {"MassInfinite", inertial("inf", "1", "1", "1"),
@@ -145,19 +146,15 @@ const Refused refusals[] = {
      "[a]"},
     {"MassWithComma", inertial("1,5", "1", "1", "1"),
      "x.urdf: Inertial: mass [1,5] is not a float; Could not parse inertial element for Link [a]"},
+    {"MassIsAFormat", inertial("%n", "1", "1", "1"),
+     R"(x.urdf:1: <mass value="%n">, must not contain %)"},
+    {"NameIsAFormat", robot(link("%s")), R"(x.urdf:1: <link name="%s">, must not contain %)"},
     {"MassMissing", robot(link("a", "<inertial/>")),
      "x.urdf: Inertial element must have a mass element; Could not parse inertial element for Link "
      "[a]"},
     {"InertiaNan", inertial("1", "nan", "1", "1"),
      "x.urdf: Inertial: inertia element ixx is not a valid double; Could not parse inertial "
      "element for Link [a]"},
-    {"InertiaNegative", inertial("1", "-0.1", "1", "1"),
-     R"(x.urdf: link "a": inertia has the principal moments -0.1, 1, 1 kg m^2, must all be > 0)"},
-    {"InertiaSingular", inertial("1", "0", "1", "1"),
-     R"(x.urdf: link "a": inertia has the principal moments 0, 1, 1 kg m^2, must all be > 0)"},
-    {"InertiaImpossible", inertial("1", "0.1", "0.5", "0.2"),
-     R"(x.urdf: link "a": inertia has the principal moments 0.1, 0.2, 0.5 kg m^2, none may exceed )"
-     "the sum of the other two by more than 5 %"},
     {"OriginNan",
      robot(link(
          "a",
@@ -165,39 +162,50 @@ const Refused refusals[] = {
      "x.urdf: Unable to parse component [nan] to a double (while parsing a vector value); Could "
      "not parse visual element for "
      "Link [a]"},
-    {"MovesWithoutMass",
-     robot(link("a") + link("b", "") + link("c", "") + joint("j", "revolute", "a", "b") +
-           joint("k", "fixed", "b", "c")),
-     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it: )"
-     "must be > 0"},
 
     {"TwoJointsOnOneAxisWithoutMassBetween",
      robot(link("a") + link("b", "") + link("c") + joint("j", "revolute", "a", "b") +
            joint("k", "revolute", "b", "c")),
-     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it, and in )"
-     "some position nothing behind it resists: must be > 0"},
-    // Roll, pitch, roll: where the pitch is 0 both rolls turn the last link alone.
-    {"GimbalWithoutMass",
-     robot(link("a") + link("b", "") + link("c", "") + link("d") +
-           joint("j", "revolute", "a", "b") +
-           joint("k", "revolute", "b", "c", std::string(limits) + R"(<axis xyz="0 1 0"/>)") +
-           joint("l", "revolute", "c", "d")),
-     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it, and in )"
-     "some position nothing behind it resists: must be > 0"},
+     R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves it, and )"
+     "nothing behind it resists: must be > 0"},
+    {"MovingMassNegative",
+     robot(link("a") + link("b", inertial_element("-1", "1", "1", "1")) +
+           joint("j", "revolute", "a", "b")),
+     R"(x.urdf: link "b": mass -1 kg, with what is fixed to it, must be > 0)"},
+    {"MovingMassesCancel",
+     robot(link("a") + link("b") + link("c", inertial_element("-1", "1", "1", "1")) +
+           joint("j", "revolute", "a", "b") + joint("k", "fixed", "b", "c", "")),
+     R"(x.urdf: link "b": mass 0 kg, with what is fixed to it, must be > 0)"},
+    {"MovingMomentNegative",
+     robot(link("a") + link("b", inertial_element("1", "-0.1", "1", "1")) +
+           joint("j", "revolute", "a", "b")),
+     R"(x.urdf: link "b": has the principal moments of inertia -0.1, 1, 1 kg m^2, with what is )"
+     R"(fixed to it, but joint "j" moves it, and nothing behind it resists: must be > 0)"},
+    {"MassHuge", inertial("1e300", "1", "1", "1"),
+     R"(x.urdf: link "a": mass 1e+300 kg, must be at most 1e+15 in magnitude)"},
+    {"MomentHuge", inertial("1", "1e300", "1e300", "1e300"),
+     R"(x.urdf: link "a": moment of inertia 1e+300 kg m^2, must be at most 1e+15 in magnitude)"},
+    {"LinkFarAway",
+     robot(link("a") + link("b") + joint("j", "fixed", "a", "b", R"(<origin xyz="1e300 0 0"/>)")),
+     R"(x.urdf: joint "j": is more than 1e+09 m from the joint before)"},
+    {"MassFarAway",
+     robot(link("a") + link("b", R"(<inertial><origin xyz="0 1e300 0"/><mass value="1"/>
+             <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)") +
+           joint("j", "revolute", "a", "b")),
+     R"(x.urdf: link "b": its centre of mass is more than 1e+09 m from its joint)"},
+    {"JointFarAway", one_joint(std::string(limits) + R"(<origin xyz="0 0 1e300"/>)"),
+     R"(x.urdf: joint "j": is more than 1e+09 m from the joint before)"},
+    {"InertiaTooSmallForBullet",
+     robot(link("a") + link("b", inertial_element("1e-14", "1e-20", "1e-20", "1e-20")) +
+           joint("j", "revolute", "a", "b")),
+     R"(x.urdf: joint "j": moves an inertia of 3e-20 kg m^2, must be > 1e-15)"},
+    {"LimitsFarAway", one_joint(R"(<limit lower="1e300" upper="2e300" effort="1" velocity="1"/>)"),
+     R"(x.urdf: joint "j": lower limit 1e+300 rad, must be at most 1e+09 in magnitude)"},
+    {"MimicByAHugeNumber", three_joints(R"(<mimic joint="j" multiplier="1e300"/>)", "", ""),
+     R"(x.urdf: joint "i": mimics by 1e+300, must be at most 1e+09 in magnitude)"},
 
-    {"Floating", one_joint("", "floating"),
-     R"(x.urdf: joint "j": is a floating joint, must be revolute, continuous, prismatic or fixed)"},
-    {"Planar", one_joint("", "planar"),
-     R"(x.urdf: joint "j": is a planar joint, must be revolute, continuous, prismatic or fixed)"},
     {"Helical", one_joint("", "helical"),
      "x.urdf: Joint [j] has no known type [helical]; joint xml is not initialized correctly"},
-    {"MimicOfItself", one_joint(std::string(limits) + R"(<mimic joint="j"/>)"),
-     R"(x.urdf: joint "j": mimics itself, must lead to another joint)"},
-    {"MimicsInARing",
-     three_joints(R"(<mimic joint="k"/>)", R"(<mimic joint="i"/>)", R"(<mimic joint="j"/>)"),
-     R"(x.urdf: joint "i": mimics itself, must lead to another joint)"},
-    {"MimicOfNone", one_joint(std::string(limits) + R"(<mimic joint="i"/>)"),
-     R"(x.urdf: joint "j": mimics joint "i", must be one that moves)"},
     {"MimicOfNoName", one_joint(std::string(limits) + "<mimic/>"),
      "x.urdf: joint mimic: no mimic joint specified; Could not parse mimic element for joint  [j]; "
      "joint xml is not initialized correctly"},
@@ -205,41 +213,13 @@ const Refused refusals[] = {
      "x.urdf: multiplier value (nan) is not a valid float; Could not parse mimic element for joint "
      " "
      "[j]; joint xml is not initialized correctly"},
-    {"MimicOfAFixedJoint",
-     robot(link("a") + link("b") + link("c") +
-           joint("i", "fixed", "a", "b", R"(<mimic joint="j"/>)") +
-           joint("j", "revolute", "b", "c", std::string(limits) + R"(<mimic joint="i"/>)")),
-     R"(x.urdf: joint "j": mimics joint "i", must be one that moves)"},
+    {"AxisTooSmall", one_joint(std::string(limits) + R"(<axis xyz="1e-308 0 0"/>)"),
+     R"(x.urdf: joint "j": axis 1e-308 0 0, must not be zero)"},
     {"AxisZero", one_joint(std::string(limits) + R"(<axis xyz="0 0 0"/>)"),
      R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
     {"AxisWithoutXyz", one_joint(std::string(limits) + "<axis/>"),
      R"(x.urdf: joint "j": axis 0 0 0, must not be zero)"},
-    {"LimitMissing", one_joint(""),
-     "x.urdf: Joint [j] is of type REVOLUTE but it does not specify limits; joint xml is not "
-     "initialized correctly"},
-    {"EffortMissing", one_joint(R"(<limit velocity="1"/>)"),
-     "x.urdf: joint limit: no effort; Could not parse limit element for joint [j]; joint xml is "
-     "not initialized correctly"},
-    {"SpeedMissing", one_joint(R"(<limit effort="1"/>)"),
-     "x.urdf: joint limit: no velocity; Could not parse limit element for joint [j]; joint xml is "
-     "not initialized correctly"},
-    {"EffortNegative", one_joint(R"(<limit effort="-1" velocity="1"/>)"),
-     R"(x.urdf: joint "j": effort limit -1 N m, must be >= 0)"},
-    {"SpeedNegative", one_joint(R"(<limit effort="1" velocity="-0.5"/>)", "prismatic"),
-     R"(x.urdf: joint "j": velocity limit -0.5 m/s, must be >= 0)"},
-    {"LimitsCrossed", one_joint(R"(<limit lower="1" upper="0.5" effort="1" velocity="1"/>)"),
-     R"(x.urdf: joint "j": lower limit 1 rad, must be <= upper limit 0.5 rad)"},
 
-    {"Capsule", shape("collision", R"(<capsule radius="1" length="1"/>)"),
-     "x.urdf: Unknown geometry type 'capsule'; Could not parse collision element for Link [a]"},
-    {"NoGeometry", robot(link("a", "<visual/>")),
-     "x.urdf: Could not parse visual element for Link [a]"},
-    {"BoxFlat", shape("collision", R"(<box size="1 0 1"/>)"),
-     R"(x.urdf: link "a": collision: box of size 1 0 1 m, must all be > 0)"},
-    {"CylinderThin", shape("visual", R"(<cylinder radius="0" length="1"/>)"),
-     R"(x.urdf: link "a": visual: cylinder of radius 0 m and length 1 m, must be > 0)"},
-    {"SphereNegative", shape("visual", R"(<sphere radius="-1"/>)"),
-     R"(x.urdf: link "a": visual: sphere of radius -1 m, must be > 0)"},
     {"MeshMissing", shape("visual", R"(<mesh filename="no.obj"/>)"),
      R"(x.urdf: link "a": visual: mesh "no.obj" not found, looked for no.obj)"},
     {"MeshWithoutPackage", shape("visual", R"(<mesh filename="package://none/no.obj"/>)"),
@@ -252,12 +232,175 @@ const Refused refusals[] = {
      R"(x.urdf: link "a": visual: mesh "a b" not found, looked for a b)"},
     {"MeshIsAFolder", shape("visual", R"(<mesh filename="."/>)"),
      R"(x.urdf: link "a": visual: mesh "." not found, looked for )"},
-    {"MeshWithoutScale", shape("visual", R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),
-     R"(x.urdf: link "a": visual: mesh "x.urdf" of scale 1 0 1, must not be 0)"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Urdf, RobotModelRefuses, testing::ValuesIn(refusals),
                          [](const auto& refused) { return refused.param.name; });
+
+struct Warned {
+  const char* name;
+  std::string text;
+  std::vector<std::string> warnings;
+};
+std::ostream& operator<<(std::ostream& out, const Warned& warned) {
+  return out << warned.name;
+}
+
+class RobotModelWarns : public testing::TestWithParam<Warned> {};
+
+TEST_P(RobotModelWarns, AboutWhatIsOddAndSaysWhatItDid) {
+  EXPECT_EQ(read(GetParam().text).warnings, GetParam().warnings);
+}
+
+std::string visual(const std::string& geometry) {
+  return shape("visual", geometry);
+}
+
+const Warned warnings[] = {
+    {"Nothing", one_joint(limits), {}},
+    {"NoName", "<robot>" + link("a") + "</robot>", {R"(robot: has no name: called "x")"}},
+    {"NameOfTwoLines",
+     robot(link("a&#10;b", inertial_element("0", "1", "1", "1"))),
+     {R"(link "a b": its mass is 0, its inertia not: taken for none)"}},
+
+    {"MassNegativeOfTheBase",
+     inertial("-1", "1", "1", "1"),
+     {R"(link "a": mass -1 kg, must be >= 0: counted as it is, with what it is fixed to)"}},
+    {"MassOfRounding",
+     inertial("-1e-18", "1", "1", "1"),
+     {R"(link "a": mass -1e-18 kg: taken for none)"}},
+    {"InertiaMissing",
+     robot(link("a", R"(<inertial><mass value="1"/></inertial>)")),
+     {R"(link "a": has no inertia: taken for a point)"}},
+    {"ProductsMissing",
+     robot(
+         link("a", R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>)")),
+     {R"(link "a": inertia without ixy: taken for 0)",
+      R"(link "a": inertia without ixz: taken for 0)",
+      R"(link "a": inertia without iyz: taken for 0)"}},
+    {"MomentNegativeOfTheBase",
+     inertial("1", "-0.1", "1", "1"),
+     {R"(link "a": inertia has the principal moments -0.1, 1, 1 kg m^2, must all be > 0: counted )"
+      "as it is, with what it is fixed to"}},
+    {"MomentZero",
+     inertial("1", "0", "1", "1"),
+     {R"(link "a": inertia has the principal moments 0, 1, 1 kg m^2, must all be > 0: taken for 0 )"
+      "where they are 0 but for rounding"}},
+    {"TriangleRule",
+     inertial("1", "0.1", "0.5", "0.2"),
+     {R"(link "a": inertia has the principal moments 0.1, 0.2, 0.5 kg m^2, the largest exceeds the )"
+      "sum of the others by 66.6667 %, which no body's does: used as it is"}},
+    // Roll, pitch, roll: where the pitch is 0 both rolls turn the last link alone.
+    {"GimbalWithoutMass",
+     robot(link("a") + link("b", "") + link("c", "") + link("d") +
+           joint("j", "revolute", "a", "b") +
+           joint("k", "revolute", "b", "c", std::string(limits) + R"(<axis xyz="0 1 0"/>)") +
+           joint("l", "revolute", "c", "d")),
+     {R"(link "b": has no mass, nor has any link fixed to it, and in some positions nothing behind )"
+      R"(it resists joint "j": accelerations have no bound there)"}},
+
+    {"MovesWithoutMass",
+     robot(link("a") + link("b", "") + link("c", "") +
+           joint("j", "revolute", "a", "b",
+                 R"(<limit lower="0.5" upper="1" effort="1" velocity="1"/>)") +
+           joint("k", "prismatic", "b", "c")),
+     {R"(joint "j": moves nothing with mass: held at 0.5 rad)",
+      R"(joint "k": moves nothing with mass: held at 0 m)"}},
+    {"Spherical",
+     one_joint("", "spherical"),
+     {R"(joint "j": is spherical, seam's joints have one degree of freedom: held where it is)"}},
+    {"Floating",
+     one_joint("", "floating"),
+     {R"(joint "j": is floating, seam's joints have one degree of freedom: held where it is)"}},
+    {"Planar",
+     one_joint("", "planar"),
+     {R"(joint "j": is planar, seam's joints have one degree of freedom: held where it is)"}},
+
+    {"MimicOfItself",
+     one_joint(std::string(limits) + R"(<mimic joint="j"/>)"),
+     {R"(joint "j": mimics itself: follows none)"}},
+    {"MimicsInARing",
+     three_joints(R"(<mimic joint="k"/>)", R"(<mimic joint="i"/>)", R"(<mimic joint="j"/>)"),
+     {R"(joint "i": mimics itself: follows none)", R"(joint "j": mimics itself: follows none)",
+      R"(joint "k": mimics itself: follows none)"}},
+    {"MimicOfNone",
+     one_joint(std::string(limits) + R"(<mimic joint="i"/>)"),
+     {R"(joint "j": mimics joint "i", which is not there: follows none)"}},
+    {"MimicOfAFixedJoint",
+     robot(link("a") + link("b") + link("c") +
+           joint("i", "fixed", "a", "b", R"(<mimic joint="j"/>)") +
+           joint("j", "revolute", "b", "c", std::string(limits) + R"(<mimic joint="i"/>)")),
+     {R"(joint "j": mimics joint "i", which does not move: follows none)"}},
+
+    {"LimitMissing", one_joint(""), {R"(joint "j": has no <limit>: moves without limits)"}},
+    {"EffortMissing",
+     one_joint(R"(<limit velocity="1"/>)"),
+     {R"(joint "j": has no effort limit: taken for none)"}},
+    {"SpeedMissing",
+     one_joint(R"(<limit effort="1"/>)"),
+     {R"(joint "j": has no velocity limit: taken for none)"}},
+    {"EffortNegative",
+     one_joint(R"(<limit effort="-1" velocity="1"/>)"),
+     {R"(joint "j": effort limit -1 N m, must be >= 0: taken for none)"}},
+    {"SpeedNegative",
+     one_joint(R"(<limit effort="1" velocity="-0.5"/>)", "prismatic"),
+     {R"(joint "j": velocity limit -0.5 m/s, must be >= 0: taken for none)"}},
+    {"LimitsCrossed",
+     one_joint(R"(<limit lower="1" upper="0.5" effort="1" velocity="1"/>)"),
+     {R"(joint "j": lower limit 1 rad is above the upper limit 0.5 rad: taken for none, as in )"
+      "Bullet"}},
+    {"DynamicsNegative",
+     one_joint(std::string(limits) + R"(<dynamics damping="-1" friction="-0.5"/>)"),
+     {R"(joint "j": damping -1, must be >= 0: taken for 0)",
+      R"(joint "j": friction -0.5, must be >= 0: taken for 0)"}},
+    {"OriginOfFourNumbers",
+     one_joint(std::string(limits) + R"(<origin rpy="0 1 0 9"/>)"),
+     {R"(joint "j": rpy "0 1 0 9", must be 3 numbers: the first 3 count)"}},
+
+    {"Capsule",
+     shape("collision", R"(<capsule radius="1" length="1"/>)"),
+     {R"(link "a": collision: <capsule>, which URDF lacks: taken for Bullet's, along z)"}},
+    {"Plane",
+     shape("collision", R"(<plane normal="0 0 1"/>)"),
+     {R"(link "a": collision: <plane>, which URDF lacks: left out)"}},
+    {"NoGeometry", robot(link("a", "<visual/>")), {R"(link "a": visual: has no shape: left out)"}},
+    {"MeshWithoutFile",
+     visual("<mesh/>"),
+     {R"(link "a": visual: mesh without a file name: left out)"}},
+    {"BoxFlat",
+     shape("collision", R"(<box size="1 0 1"/>)"),
+     {R"(link "a": collision: box of size 1 0 1 m, must all be > 0: left out)"}},
+    {"CylinderThin",
+     visual(R"(<cylinder radius="0" length="1"/>)"),
+     {R"(link "a": visual: cylinder of radius 0 m and length 1 m, must be > 0: left out)"}},
+    {"SphereOfNoSize",
+     visual(R"(<sphere radius="0"/>)"),
+     {R"(link "a": visual: sphere of radius 0 m, must be > 0: left out)"}},
+    {"MeshWithoutScale",
+     visual(R"(<mesh filename="x.urdf" scale="1 0 1"/>)"),
+     {R"(link "a": visual: mesh "x.urdf" of scale 1 0 1, must not be 0: left out)"}},
+    {"ScaleOfFourNumbers",
+     visual(R"(<mesh filename="x.urdf" scale="1 2 3 1"/>)"),
+     {R"(link "a": scale "1 2 3 1", must be 3 numbers: the first 3 count)"}},
+    {"ScaleOfOneNumber",
+     visual(R"(<mesh filename="x.urdf" scale="2"/>)"),
+     {R"(link "a": scale "2", must be 3 numbers: taken for all axes)"}},
+
+    {"MaterialTwice",
+     robot(R"(<material name="m"><color rgba="1 0 0 1"/></material>)"
+           R"(<material name="m"><color rgba="0 1 0 1"/></material>)" +
+           link("a")),
+     {R"(material "m": is given twice: the first one counts)"}},
+    {"MaterialSaysNothing",
+     robot(R"(<material name="m"/>)" + link("a")),
+     {R"(material "m": has neither colour nor texture: left out)"}},
+    {"ColourOfThreeNumbers",
+     robot(R"(<material name="m"><color rgba="1 0 0"/></material>)" + link("a")),
+     {R"(material "m": rgba "1 0 0", must be 4 numbers: taken for opaque)"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Urdf, RobotModelWarns, testing::ValuesIn(warnings),
+                         [](const auto& warned) { return warned.param.name; });
 
 std::string refusal_of_path(const std::string& path) {
   try {
@@ -368,40 +511,165 @@ TEST(RobotModel, RefusesMoreJointsThanAnyRobotHas) {
 TEST(RobotModel, TakesAnInertialWithoutMassForNone) {
   const auto zeros = read(inertial("0", "0", "0", "0"));
   EXPECT_EQ(zeros.base.inertial.mass, 0.0);
-  EXPECT_TRUE(zeros.ignored_inertia.empty());
+  EXPECT_TRUE(zeros.warnings.empty());
   const auto some = read(inertial("0", "1", "1", "1"));
   EXPECT_TRUE(some.base.inertial.inertia.isZero(0.0));
-  ASSERT_EQ(some.ignored_inertia.size(), 1U);
-  EXPECT_EQ(some.ignored_inertia[0], R"(link "a": its mass is 0, its inertia not)");
-  EXPECT_EQ(refusal(robot(link("a") + link("b", inertial_element("0", "1", "1", "1")) +
-                          joint("j", "revolute", "a", "b"))),
-            R"(x.urdf: link "b": has no mass, nor has any link fixed to it, but joint "j" moves )"
-            "it: must be > 0");
+  EXPECT_EQ(some.warnings, Lines{R"(link "a": its mass is 0, its inertia not: taken for none)"});
 }
+
+const char* const point_inertia = R"(<mass value="2"/>
+    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>)";
 
 // A point of 2 kg, 1 m away from the axis.
 TEST(RobotModel, TakesAMassWithoutInertiaForAPoint) {
-  const std::string point = R"(<inertial><origin xyz="0 1 0"/><mass value="2"/>
-    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>)";
+  const std::string point = R"(<inertial><origin xyz="0 1 0"/>)" + std::string(point_inertia);
   const auto model = read(robot(link("a") + link("b", point) + joint("j", "revolute", "a", "b")));
   EXPECT_EQ(model.bodies[0].inertial.about_origin()(0, 0), 2.0);
-  EXPECT_EQ(
-      refusal(
-          robot(link("a") + link("b", point) +
-                joint("j", "revolute", "a", "b", std::string(limits) + R"(<axis xyz="0 1 0"/>)"))),
-      R"(x.urdf: link "b": has no inertia, nor has any link fixed to it, but joint "j" moves it, )"
-      "and in some position nothing behind it resists: must be > 0");
+  EXPECT_TRUE(model.warnings.empty());
 }
 
-// What rounding leaves of its arm is no inertia.
-TEST(RobotModel, RefusesAPointOnASkewAxis) {
-  const std::string point = R"(<inertial><origin xyz="0.1 0.2 0.3"/><mass value="2"/>
-    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>)";
-  const std::string axis = std::string(limits) + R"(<axis xyz="1 2 3"/>)";
+// A ball of 2 kg of water has a radius of 78 mm, and 2/5·m·r². What rounding leaves of its arm is no inertia.
+TEST(RobotModel, MakesABallOfAPointOnItsAxis) {
+  const double radius = std::cbrt(3.0 * 2.0 / (4.0 * M_PI * 1000.0));
+  for (const auto& [origin, axis] :
+       {std::pair{"0 1 0", "0 1 0"}, std::pair{"0.1 0.2 0.3", "1 2 3"}}) {
+    const std::string point =
+        R"(<inertial><origin xyz=")" + std::string(origin) + R"("/>)" + point_inertia;
+    const auto model = read(robot(link("a") + link("b", point) +
+                                  joint("j", "revolute", "a", "b",
+                                        std::string(limits) + R"(<axis xyz=")" + axis + R"("/>)")));
+    EXPECT_NEAR(model.bodies[0].inertial.inertia(1, 1), 0.4 * 2.0 * radius * radius, 1e-15);
+    EXPECT_EQ(
+        model.warnings,
+        Lines{R"(link "b": has no inertia that joint "j" would meet: 0.0048871 kg m^2 added, )"
+              "a ball's of water of its mass"});
+  }
+}
+
+TEST(RobotModel, CountsTheMergedBodyAndNotEachLink) {
+  const std::string sensor = R"(<inertial><origin xyz="0.1 0 0"/><mass value="0.01"/>
+    <inertia ixx="-1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-3"/></inertial>)";
+  const auto model =
+      read(robot(link("a") + link("b") + link("c", sensor) + joint("j", "revolute", "a", "b") +
+                 joint("k", "fixed", "b", "c", "")));
+  const double moved = 0.01 * 0.1 * 0.1 / 1.01;  // m₁·m₂/(m₁ + m₂)·d²
+  const Vector3d expected(1.0 - 1e-4, 1.0 + 1e-4 + moved, 1.0 + 1e-3 + moved);
+  EXPECT_LE((model.bodies[0].inertial.inertia.diagonal() - expected).norm(), 1e-15);
   EXPECT_EQ(
-      refusal(robot(link("a") + link("b", point) + joint("j", "revolute", "a", "b", axis))),
-      R"(x.urdf: link "b": has no inertia, nor has any link fixed to it, but joint "j" moves it, )"
-      "and in some position nothing behind it resists: must be > 0");
+      model.warnings,
+      Lines{R"(link "c": inertia has the principal moments -0.0001, 0.0001, 0.001 kg m^2, must )"
+            "all be > 0: counted as it is, with what it is fixed to"});
+}
+
+// 15 % beyond the triangle rule, as a well-known arm's elbow is; and a negative moment about an axis that no joint turns.
+TEST(RobotModel, TakesWhatTheJointsDoNotFeel) {
+  for (const auto& [ixx, izz] : {std::pair{"0.1", "0.345"}, std::pair{"0.1", "-0.02"}}) {
+    const auto model = read(robot(link("a") + link("b", inertial_element("1", ixx, "0.2", izz)) +
+                                  joint("j", "revolute", "a", "b")));
+    EXPECT_EQ(model.bodies[0].inertial.inertia(2, 2), std::stod(izz));
+    EXPECT_EQ(model.warnings.size(), 1U);
+  }
+}
+
+TEST(RobotModel, TakesRoundedMomentsForZero) {
+  const auto model =
+      read(robot(link("a") + link("b", inertial_element("1", "0.1", "0.1", "-1e-20")) +
+                 joint("j", "revolute", "a", "b")));
+  EXPECT_EQ(model.bodies[0].inertial.inertia(2, 2), 0.0);
+  EXPECT_EQ(
+      model.warnings,
+      Lines{R"(link "b": inertia has the principal moments -1e-20, 0.1, 0.1 kg m^2, must all be )"
+            "> 0: taken for 0 where they are 0 but for rounding"});
+}
+
+TEST(RobotModel, MakesJointsFixedThatMoveNoMass) {
+  const std::string stop = R"(<limit lower="0.5" upper="1" effort="1" velocity="1"/>)";
+  const auto model =
+      read(robot(link("a") + link("b") +
+                 link("c", R"(<visual><geometry><sphere radius="1"/></geometry></visual>)") +
+                 joint("j", "revolute", "a", "b") +
+                 joint("k", "prismatic", "b", "c", stop + R"(<axis xyz="0 0 1"/>)")));
+  EXPECT_EQ(model.dof(), 1);
+  EXPECT_EQ(model.frame("c").body, 0);
+  EXPECT_EQ(model.frame("c").X_body_frame.translation(), Vector3d(0.0, 0.0, 0.5));
+  EXPECT_EQ(model.bodies[0].visuals.size(), 1U);
+}
+
+// 199 points on links of 0.1 m that fold up: none of them resists well.
+TEST(RobotModel, ReadsALongChainOfPointsInNoTime) {
+  const std::string point = inertial_element("1", "0", "0", "0");
+  std::string content = link("0", "");
+  for (int i = 1; i < 200; ++i)
+    content += link(std::to_string(i), point) +
+               joint(std::to_string(i), "continuous", std::to_string(i - 1), std::to_string(i),
+                     R"(<origin xyz="0.1 0 0"/><axis xyz="0 0 1"/>)");
+  const auto start = std::chrono::steady_clock::now();
+  const auto model = read(robot(content));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_EQ(model.warnings.size(), 199U);
+}
+
+TEST(RobotModel, FreesWhatMimicsAHeldJoint) {
+  const auto model =
+      read(robot(link("a") + link("b", "") + link("c") + joint("j", "revolute", "a", "b") +
+                 joint("k", "revolute", "a", "c",
+                       std::string(limits) + R"(<mimic joint="j" multiplier="2"/>)")));
+  EXPECT_EQ(model.dof(), 1);
+  EXPECT_FALSE(model.joints[0].follows());
+  EXPECT_EQ(model.joints[0].multiplier, 1.0);
+}
+
+TEST(RobotModel, TakesCrossedAndMissingLimitsForNone) {
+  for (const char* limit : {R"(<limit lower="1" upper="-1" effort="5" velocity="2"/>)", ""}) {
+    const auto turns = read(one_joint(limit)).joints[0];
+    EXPECT_EQ(turns.type, seam::Joint::Type::continuous);
+    EXPECT_EQ(turns.lower, -infinity);
+    EXPECT_EQ(turns.upper, infinity);
+    const auto slides = read(one_joint(limit, "prismatic"));
+    EXPECT_EQ(slides.joints[0].type, seam::Joint::Type::prismatic);
+    EXPECT_EQ(slides.joints[0].lower, -infinity);
+    EXPECT_EQ(slides.joints[0].upper, infinity);
+    EXPECT_EQ(slides.neutral()(0), 0.0);
+  }
+  const auto bare = read(one_joint(R"(<limit lower="-1" upper="1"/>)")).joints[0];
+  EXPECT_EQ(bare.upper, 1.0);
+  EXPECT_EQ(bare.effort, infinity);
+  EXPECT_EQ(bare.speed, infinity);
+}
+
+TEST(RobotModel, KeepsDampingAndFriction) {
+  const auto given =
+      read(one_joint(std::string(limits) + R"(<dynamics damping="0.5" friction="0.25"/>)"));
+  EXPECT_EQ(given.joints[0].damping, 0.5);
+  EXPECT_EQ(given.joints[0].friction, 0.25);
+  EXPECT_TRUE(given.warnings.empty());
+  const auto half = read(one_joint(std::string(limits) + R"(<dynamics friction="0.25"/>)"));
+  EXPECT_EQ(half.joints[0].damping, 0.0);
+  const auto none = read(one_joint(std::string(limits) + "<dynamics/>"));
+  EXPECT_EQ(none.joints[0].damping + none.joints[0].friction, 0.0);
+}
+
+TEST(RobotModel, TouchesACapsuleAndDrawsItAsACylinderAndTwoSpheres) {
+  const std::string capsule =
+      R"(<origin xyz="1 0 0"/><geometry><capsule radius="0.1" length="0.4"/></geometry>)";
+  const std::string cylinder = R"(<geometry><cylinder radius="2" length="3"/></geometry>)";
+  const auto model = read(
+      robot(link("a", "<visual>" + capsule +
+                          "</visual><collision><geometry><cdf/></geometry></collision><collision>" +
+                          cylinder + "</collision><collision>" + capsule + "</collision>")));
+  using Type = seam::Geometry::Type;
+  ASSERT_EQ(model.base.collisions.size(), 2U);
+  EXPECT_EQ(model.base.collisions[0].type, Type::cylinder);
+  EXPECT_EQ(model.base.collisions[1].type, Type::capsule);
+  EXPECT_EQ(model.base.collisions[1].size, Vector3d(0.1, 0.0, 0.4));
+  ASSERT_EQ(model.base.visuals.size(), 3U);
+  EXPECT_EQ(model.base.visuals[0].type, Type::cylinder);
+  EXPECT_EQ(model.base.visuals[0].size, Vector3d(0.1, 0.0, 0.4));
+  for (const auto& [end, z] : {std::pair{1U, 0.2}, std::pair{2U, -0.2}}) {
+    EXPECT_EQ(model.base.visuals[end].type, Type::sphere);
+    EXPECT_EQ(model.base.visuals[end].size[0], 0.1);
+    EXPECT_EQ(model.base.visuals[end].X_body_shape.translation(), Vector3d(1.0, 0.0, z));
+  }
 }
 
 TEST(RobotModel, AcceptsAMomentThatIsRoundedUp) {
@@ -479,6 +747,8 @@ TEST(RobotModel, MakesAxesUnitAndTakesUrdfsDefault) {
   EXPECT_EQ(read(one_joint(std::string(limits) + R"(<axis xyz="0 0 -4"/>)")).joints[0].axis,
             Vector3d(0, 0, -1));
   EXPECT_EQ(read(one_joint(limits)).joints[0].axis, Vector3d(1, 0, 0));
+  EXPECT_EQ(read(one_joint(std::string(limits) + R"(<axis xyz="0 1e308 0"/>)")).joints[0].axis,
+            Vector3d(0, 1, 0));
 }
 
 TEST(RobotModel, KeepsShapesWithTheirColours) {

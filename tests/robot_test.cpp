@@ -143,6 +143,26 @@ TEST_P(RobotOf, PlacesEveryLinkWhereOrocosKdlDoes) {
   }
 }
 
+// Links beyond the triangle rule, sensors with negative moments, points that become balls.
+TEST(Robot, AcceleratesAsAskedWhereItsUrdfIsOdd) {
+  for (const char* file : {"/robots/odd_arm.urdf", "/robots/point_masses.urdf"}) {
+    RandomRobot random(25);
+    EXPECT_LE(worst_acceleration_error(std::string(SEAM_TEST_DATA) + file, random, 100), 1e-9)
+        << file;
+  }
+}
+
+TEST(Robot, KeepsTheWarningsOfItsUrdfAndPrintsNothing) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const std::string file = SEAM_TEST_DATA "/robots/odd_arm.urdf";
+  seam::World world;
+  const auto robot = seam::Robot::load(file, *world);
+  EXPECT_EQ(robot.model().warnings.size(), 10U);
+  EXPECT_EQ(robot.model().warnings, seam::RobotModel::read(file).warnings);
+  EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Files, RobotOf, testing::Values(pa10, skew_tree, planar_arm));
 
 TEST(Robot, AcceleratesAsAskedOnRandomTrees) {
@@ -225,6 +245,45 @@ TEST(Robot, PutsItsShapesWhereTheUrdfSaysOnARotatedBase) {
     EXPECT_LE((hit("sphere", -Vector3d::UnitX()) - Vector3d(-0.09, 0, 0)).norm(), accuracy);
     EXPECT_LE((hit("hull", Vector3d::UnitX()) - Vector3d(0.1, 0, 0)).norm(), accuracy);
     EXPECT_LE((hit("hull", Vector3d::UnitZ()) - Vector3d(0, 0, 0.3)).norm(), accuracy);
+  }
+}
+
+/// Whether a ball of 10 mm here would touch anything.
+bool touches(btMultiBodyDynamicsWorld& world, const Vector3d& at) {
+  struct Callback : btCollisionWorld::ContactResultCallback {
+    btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                             const btCollisionObjectWrapper*, int, int) override {
+      touched = touched || point.getDistance() <= 0;
+      return 0;
+    }
+    bool touched = false;
+  } callback;
+  btSphereShape shape(btScalar(0.01));
+  btCollisionObject ball;
+  ball.setCollisionShape(&shape);
+  ball.setWorldTransform(
+      btTransform(btQuaternion::getIdentity(), btVector3(at.x(), at.y(), at.z())));
+  world.contactTest(&ball, callback);
+  return callback.touched;
+}
+
+TEST(Robot, CollidesAsBulletsCapsuleAlongZ) {
+  const TempFolder folder;
+  const std::string file = folder.write(
+      "x.urdf",
+      R"(<robot name="r"><link name="a"><collision><origin xyz="0.1 0 0" rpy="0.3 0 0"/>)"
+      R"(<geometry><capsule radius="0.1" length="0.4"/></geometry></collision></link></robot>)");
+  seam::World world;
+  const auto robot = seam::Robot::load(file, *world);
+  Isometry3d X_world_shape = Isometry3d::Identity();
+  X_world_shape.translate(Vector3d(0.1, 0.0, 0.0));
+  X_world_shape.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));
+  const Vector3d outwards[] = {Vector3d::UnitZ(), -Vector3d::UnitZ(), Vector3d::UnitX(),
+                               -Vector3d::UnitY(), Vector3d(0.6, 0.0, 0.8)};
+  for (const Vector3d& n : outwards) {
+    const Vector3d centre(0.0, 0.0, n.z() == 0.0 ? 0.0 : std::copysign(0.2, n.z()));
+    EXPECT_TRUE(touches(*world, X_world_shape * (centre + 0.109 * n))) << n.transpose();
+    EXPECT_FALSE(touches(*world, X_world_shape * (centre + 0.111 * n))) << n.transpose();
   }
 }
 

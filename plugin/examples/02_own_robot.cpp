@@ -4,6 +4,7 @@
 //     own_robot robot.urdf [FOLDER...]
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "example.hpp"
@@ -26,7 +27,7 @@ int main(int argc, char** argv) try {
   for (int i = 0; i < arm.dof(); ++i) {
     const seam::Joint& joint = arm.model().joints[static_cast<std::size_t>(i)];
     if (joint.follows()) continue;  // a mimic joint: its leader takes it along
-    const bool endless = joint.type == seam::Joint::Type::continuous;
+    const bool endless = std::isinf(joint.upper - joint.lower);
     middle(i) = endless ? 0.0 : 0.5 * (joint.lower + joint.upper);
     away(i) = middle(i) + (endless ? 0.5 : std::min(0.5, 0.1 * (joint.upper - joint.lower)));
     names.push_back(joint.name);

@@ -50,6 +50,8 @@ std::vector<Mesh> meshes_of(const Geometry& shape) {
       return {sphere(shape.size[0])};
     case Geometry::Type::mesh:
       return load_mesh(shape.mesh);
+    case Geometry::Type::capsule:
+      break;  // is only touched
   }
   return {};
 }

@@ -8,13 +8,16 @@
 
 namespace seam {
 
-/// The joints' inertia matrix M(q) = Σ over the bodies of m·J_vᵀJ_v + J_ωᵀI·J_ω, n × n.
-Eigen::MatrixXd inertia_matrix(const RobotModel& model, const Eigen::VectorXd& q);
+/// Inertia that each joint moves at the neutral position [kg m² or kg], others at rest: the diagonal of M(q).
+Eigen::VectorXd moved_inertia(const RobotModel& model);
 
-/// Refuses a robot with moving bodies without mass or inertia that leave a joint, or joints together, without inertia
-/// somewhere (see RobotModel::read). A robot whose bodies all have both is left alone.
+/// Looks at the joints' inertia matrix M(q) where bodies have no mass, no inertia or a negative moment, in random positions and in those where joints
+/// line up (see RobotModel::read). Without inertia almost everywhere, points that have mass become balls, with a warning
+/// each; if that does not help, or if M is negative anywhere, the robot is refused. Without inertia here and there, it is
+/// warned of. A robot whose bodies' moments are all positive is left alone, but for joints that move less than 1e-15 kg m² or kg:
+/// Bullet would not move them.
 /// @param path  of the URDF
 /// @throws Error
-void require_inertia(const RobotModel& model, const std::string& path);
+void require_inertia(RobotModel& model, const std::string& path);
 
 }  // namespace seam

@@ -7,8 +7,11 @@
 #include "bullet_types.hpp"
 #include "multibody.hpp"
 #include "one_precision.hpp"
+#include "require_inertia.hpp"
 #include "shapes.hpp"
+#include "text.hpp"
 #include "world_watch.hpp"
+#include <seam/error.hpp>
 #include <seam/robot.hpp>
 
 namespace seam {
@@ -17,6 +20,22 @@ namespace {
 
 constexpr int base_dof =
     6;  // that a multibody's velocity vector begins with, also where the base is fixed
+
+// Bullet takes an inertia below its precision's for none, and does not move the joint.
+void warn_of_small_inertia(RobotModel& model) {
+  const Eigen::VectorXd moved = moved_inertia(model);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const double inertia = moved(static_cast<Eigen::Index>(i));
+    if (inertia >= SIMD_EPSILON) continue;
+    const Joint& joint = model.joints[i];
+    const char* const unit = joint.type == Joint::Type::prismatic ? " kg" : " kg m^2";
+    model.warnings.emplace_back(
+        Error("joint \"" + joint.name + "\"",
+              text("moves an inertia of ", inertia, unit, ", must be >= ", SIMD_EPSILON,
+                   " in this precision: Bullet does not move it"))
+            .what());
+  }
+}
 
 }  // namespace
 
@@ -46,6 +65,7 @@ Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
                     const RobotSettings& settings)
     : model(std::move(robot_model)), world(in_world) {
   require_one_precision();
+  warn_of_small_inertia(model);
   for (const Body& body : model.bodies) frames.push_back(link_frame(body.inertial));
   multibody = make_multibody(model, frames);
   multibody->setHasSelfCollision(settings.self_collision);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "require_inertia.hpp"
+#include "text.hpp"
 #include "urdf_document.hpp"
 #include "urdf_elements.hpp"
 #include <seam/error.hpp>
@@ -21,11 +22,16 @@ std::string names(const Items& items) {
   return line.empty() ? " none" : line;
 }
 
+/// 0, or the limit next to it.
+double next_to_zero(const Joint& joint) {
+  return std::min(std::max(0.0, joint.lower), joint.upper);
+}
+
 /// Walks the tree from its root and merges what is fixed.
 class ModelBuilder {
  public:
-  ModelBuilder(const UrdfDocument& document, const std::string& path, const UrdfSettings& settings)
-      : document_(document),
+  ModelBuilder(UrdfDocument document, const std::string& path, const UrdfSettings& settings)
+      : document_(std::move(document)),
         places_{path, settings.package_path},
         leave_out_missing_meshes_(settings.leave_out_missing_meshes) {}
 
@@ -33,15 +39,17 @@ class ModelBuilder {
     const urdf::Link& root = *document_.model->getRoot();
     model_.name = document_.model->getName();
     model_.base.link = root.name;
+    model_.warnings = std::move(document_.warnings);
     add_link(root, -1, Eigen::Isometry3d::Identity());
     resolve_leaders();
+    require_masses();
     require_inertia(model_, places_.urdf);
     return std::move(model_);
   }
 
  private:
-  std::string where(const char* kind, const std::string& name) const {
-    return places_.urdf + ": " + kind + " \"" + name + "\"";
+  UrdfPlace place(const char* kind, const std::string& name) {
+    return {places_.urdf, std::string(kind) + " \"" + name + "\"", model_.warnings};
   }
 
   Body& body(int index) {
@@ -55,17 +63,32 @@ class ModelBuilder {
       const urdf::Link& child = *document_.model->getLink(joint->child_link_name);
       const Eigen::Isometry3d X =
           X_body_link * pose_from_urdf(joint->parent_to_joint_origin_transform);
+      if (!(X.translation().norm() <= farthest))
+        place("joint", joint->name)
+            .refuse(text("is more than ", farthest, " m from the joint before"));
       if (joint->type == urdf::Joint::FIXED) {
         add_link(child, index, X);
+      } else if (!has_mass(child)) {
+        add_link(child, index, X * held(*joint));
       } else {
         add_joint(*joint, child, index, X);
       }
     }
   }
 
+  // Where a joint stays that moves nothing with mass.
+  Eigen::Isometry3d held(const urdf::Joint& urdf_joint) {
+    const UrdfPlace here = place("joint", urdf_joint.name);
+    const Joint joint = joint_from_urdf(urdf_joint, here);
+    const double q = next_to_zero(joint);
+    const char* const unit = joint.type == Joint::Type::prismatic ? " m" : " rad";
+    here.warn(text("moves nothing with mass: held at ", q, unit));
+    return joint.X_parent_body_at(q);
+  }
+
   void add_joint(const urdf::Joint& urdf_joint, const urdf::Link& child, int parent,
                  const Eigen::Isometry3d& X_parent_body) {
-    Joint joint = joint_from_urdf(urdf_joint, where("joint", urdf_joint.name));
+    Joint joint = joint_from_urdf(urdf_joint, place("joint", urdf_joint.name));
     joint.parent = parent;
     joint.X_parent_body = X_parent_body;
     model_.joints.push_back(std::move(joint));
@@ -75,32 +98,32 @@ class ModelBuilder {
   }
 
   void add_parts(const urdf::Link& link, Body& body, const Eigen::Isometry3d& X_body_link) {
-    const std::string here = where("link", link.name);
-    if (link.inertial) {
+    const UrdfPlace here = place("link", link.name);
+    if (link.inertial)
       body.inertial = body.inertial + X_body_link * inertial_from_urdf(*link.inertial, here);
-      const urdf::Inertial& given = *link.inertial;
-      if (given.mass == 0.0 && (given.ixx != 0.0 || given.iyy != 0.0 || given.izz != 0.0))
-        model_.ignored_inertia.push_back("link \"" + link.name +
-                                         "\": its mass is 0, its inertia not");
+    for (std::size_t i = 0; i < link.visual_array.size(); ++i) {
+      const bool is_capsule = document_.capsule_visuals.count({link.name, i}) > 0;
+      add_shapes(body.visuals, link.name, X_body_link, [&] {
+        return visual_from_urdf(*link.visual_array[i], is_capsule, places_, here);
+      });
     }
-    for (const auto& visual : link.visual_array) {
-      add_shape(body.visuals, link.name, X_body_link,
-                [&] { return visual_from_urdf(*visual, places_, here); });
-    }
-    for (const auto& collision : link.collision_array) {
-      add_shape(body.collisions, link.name, X_body_link,
-                [&] { return collision_from_urdf(*collision, places_, here); });
+    for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
+      const bool is_capsule = document_.capsule_collisions.count({link.name, i}) > 0;
+      add_shapes(body.collisions, link.name, X_body_link, [&] {
+        return collision_from_urdf(*link.collision_array[i], is_capsule, places_, here);
+      });
     }
   }
 
   template <typename Make>
-  void add_shape(std::vector<Geometry>& shapes, const std::string& link,
-                 const Eigen::Isometry3d& X_body_link, Make make) {
+  void add_shapes(std::vector<Geometry>& shapes, const std::string& link,
+                  const Eigen::Isometry3d& X_body_link, Make make) {
     try {
-      Geometry shape = make();
-      shape.link = link;
-      shape.X_body_shape = X_body_link * shape.X_body_shape;
-      shapes.push_back(std::move(shape));
+      for (Geometry& shape : make()) {
+        shape.link = link;
+        shape.X_body_shape = X_body_link * shape.X_body_shape;
+        shapes.push_back(std::move(shape));
+      }
     } catch (const MeshNotFound& missing) {
       if (!leave_out_missing_meshes_) throw;
       model_.missing_meshes.push_back(
@@ -119,31 +142,62 @@ class ModelBuilder {
     return joints;
   }
 
-  // A follower of a follower follows that one's leader.
+  // A follower of a follower follows that one's leader; one that is led by none that moves follows none.
   void resolve_leaders() {
     for (Joint& joint : model_.joints) {
       const auto mimic = document_.model->getJoint(joint.name)->mimic;
-      const std::string here = where("joint", joint.name);
-      int steps = 0;
-      for (auto next = mimic; next; ++steps) {
-        if (steps == model_.dof()) throw Error(here, "mimics itself, must lead to another joint");
-        joint.leader = joint_behind(*next, here);
-        const auto& leader = *document_.model->getJoint(next->joint_name);
-        next = leader.mimic;
-        if (!next) continue;
-        joint.offset += joint.multiplier * next->offset;
-        joint.multiplier *= next->multiplier;
-      }
+      if (!mimic) continue;
+      const UrdfPlace here = place("joint", joint.name);
+      follow(joint, *mimic, here);
+      for (const double number : {joint.multiplier, joint.offset})
+        if (!(std::abs(number) <= farthest))
+          here.refuse(text("mimics by ", number, ", must be at most ", farthest, " in magnitude"));
     }
   }
 
-  int joint_behind(const urdf::JointMimic& mimic, const std::string& here) const {
-    for (int i = 0; i < model_.dof(); ++i)
-      if (model_.joints[static_cast<std::size_t>(i)].name == mimic.joint_name) return i;
-    throw Error(here, "mimics joint \"" + mimic.joint_name + "\", must be one that moves");
+  void follow(Joint& joint, const urdf::JointMimic& first, const UrdfPlace& here) const {
+    double multiplier = first.multiplier, offset = first.offset;
+    const urdf::JointMimic* mimic = &first;
+    for (int steps = 0;; ++steps) {
+      const int leader = moving_joint(mimic->joint_name);
+      if (leader < 0)
+        return here.warn(
+            "mimics joint \"" + mimic->joint_name + "\", which " +
+            (document_.model->getJoint(mimic->joint_name) ? "does not move" : "is not there") +
+            ": follows none");
+      if (steps == model_.dof()) return here.warn("mimics itself: follows none");
+      const auto next = document_.model->getJoint(mimic->joint_name)->mimic;
+      if (!next) {
+        joint.leader = leader;
+        joint.multiplier = multiplier;
+        joint.offset = offset;
+        return;
+      }
+      offset += multiplier * next->offset;
+      multiplier *= next->multiplier;
+      mimic = next.get();
+    }
   }
 
-  const UrdfDocument& document_;
+  int moving_joint(const std::string& name) const {
+    for (int i = 0; i < model_.dof(); ++i)
+      if (model_.joints[static_cast<std::size_t>(i)].name == name) return i;
+    return -1;
+  }
+
+  void require_masses() {
+    for (const Body& body : model_.bodies) {
+      const Inertial& all = body.inertial;
+      if (all.mass == 0.0 && all.com.isZero(0.0) && all.inertia.isZero(0.0)) continue;
+      const UrdfPlace here = place("link", body.link);
+      if (!(all.mass > 0.0 && all.com.allFinite()))
+        here.refuse(text("mass ", all.mass, " kg, with what is fixed to it, must be > 0"));
+      if (!(all.com.norm() <= farthest))
+        here.refuse(text("its centre of mass is more than ", farthest, " m from its joint"));
+    }
+  }
+
+  UrdfDocument document_;
   MeshPlaces places_;
   bool leave_out_missing_meshes_;
   RobotModel model_;
@@ -206,17 +260,13 @@ void RobotModel::place_followers(Eigen::Ref<Eigen::VectorXd> q) const noexcept {
 
 Eigen::VectorXd RobotModel::neutral() const {
   Eigen::VectorXd q(dof());
-  for (int i = 0; i < dof(); ++i) {
-    const Joint& joint = joints[static_cast<std::size_t>(i)];
-    q(i) = std::min(std::max(0.0, joint.lower), joint.upper);
-  }
+  for (int i = 0; i < dof(); ++i) q(i) = next_to_zero(joints[static_cast<std::size_t>(i)]);
   place_followers(q);
   return q;
 }
 
 RobotModel RobotModel::read(const std::string& urdf_path, const UrdfSettings& settings) {
-  const UrdfDocument document = read_urdf(urdf_path);
-  return ModelBuilder(document, urdf_path, settings).build();
+  return ModelBuilder(read_urdf(urdf_path), urdf_path, settings).build();
 }
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -35,6 +36,8 @@ std::unique_ptr<btCollisionShape> make_part(const Geometry& geometry) {
       return std::make_unique<btBoxShape>(size / 2);
     case Geometry::Type::cylinder:
       return std::make_unique<btCylinderShapeZ>(btVector3(size.x(), size.x(), size.z() / 2));
+    case Geometry::Type::capsule:
+      return std::make_unique<btCapsuleShapeZ>(btScalar(size.x()), btScalar(size.z()));
     case Geometry::Type::sphere:
       return std::make_unique<btSphereShape>(size.x());
     default:
@@ -51,7 +54,9 @@ BodyShape make_shape(const std::vector<Geometry>& geometries,
   for (const Geometry& geometry : geometries) {
     shape.parts.push_back(make_part(geometry));
     btCollisionShape& part = *shape.parts.back();
-    if (geometry.type != Geometry::Type::sphere)
+    const bool is_round =
+        geometry.type == Geometry::Type::sphere || geometry.type == Geometry::Type::capsule;
+    if (!is_round)  // their margin is their radius
       part.setMargin(std::min(part.getMargin(), btScalar(margin)));
     shape.compound->addChildShape(bullet_pose(X_body_link.inverse() * geometry.X_body_shape),
                                   &part);

@@ -10,6 +10,7 @@
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "mend_urdf.hpp"
 #include <seam/error.hpp>
 #include <seam/whole_file.hpp>
 
@@ -81,13 +82,13 @@ const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
   return nullptr;
 }
 
-std::vector<JointElement> joint_elements(const std::string& path, const std::string& text) {
-  tinyxml2::XMLDocument xml;
+tinyxml2::XMLElement& parse(tinyxml2::XMLDocument& xml, const std::string& path,
+                            const std::string& text) {
   if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw Error(path + ":" + std::to_string(xml.ErrorLineNum()),
                 std::string("not well-formed XML (") + xml.ErrorName() + ")");
   }
-  const tinyxml2::XMLElement* root = xml.RootElement();
+  tinyxml2::XMLElement* root = xml.RootElement();
   const std::string root_name = root ? root->Name() : "";
   if (root_name != "robot")
     throw Error(path, "root element is <" + root_name + ">, must be <robot>");
@@ -95,8 +96,12 @@ std::vector<JointElement> joint_elements(const std::string& path, const std::str
     throw Error(path + ":" + std::to_string(found->GetLineNum()),
                 std::string("<") + found->Name() +
                     "> is xacro, must be expanded first: xacro in.xacro > out.urdf");
+  return *root;
+}
+
+std::vector<JointElement> joint_elements(const tinyxml2::XMLElement& robot) {
   std::vector<JointElement> joints;
-  for (auto* joint = root->FirstChildElement("joint"); joint;
+  for (auto* joint = robot.FirstChildElement("joint"); joint;
        joint = joint->NextSiblingElement("joint")) {
     joints.push_back({attribute(joint, "name"),
                       attribute(joint->FirstChildElement("parent"), "link"),
@@ -131,7 +136,9 @@ void check_tree(const std::string& path, const std::vector<JointElement>& joints
 
 UrdfDocument read_urdf(const std::string& path) {
   const std::string text = read_text(path);
-  const std::vector<JointElement> joints = joint_elements(path, text);
+  tinyxml2::XMLDocument xml;
+  tinyxml2::XMLElement& robot = parse(xml, path, text);
+  const std::vector<JointElement> joints = joint_elements(robot);
   if (joints.size() > most_joints)
     throw Error(
         path, std::to_string(joints.size()) + " joints, must be <= " + std::to_string(most_joints));
@@ -139,10 +146,13 @@ UrdfDocument read_urdf(const std::string& path) {
   UrdfDocument document;
   for (const JointElement& joint : joints)
     document.joint_order.emplace(joint.name, document.joint_order.size());
+  mend_urdf(robot, path, document);
+  tinyxml2::XMLPrinter mended(nullptr, true);
+  xml.Print(&mended);
 
   const UrdfdomErrors errors;
   try {
-    document.model = urdf::parseURDF(text);
+    document.model = urdf::parseURDF(mended.CStr());
   } catch (const std::exception& error) {
     throw Error(path, error.what());
   }

@@ -27,12 +27,12 @@ Inertial operator+(const Inertial& a, const Inertial& b);
 
 /// One shape of a body, as the URDF gives it.
 struct Geometry {
-  /// Kind of shape.
-  enum class Type { box, cylinder, sphere, mesh };
+  /// Kind of shape. A capsule is only touched: to be seen it is a cylinder and two spheres.
+  enum class Type { box, cylinder, sphere, mesh, capsule };
 
   Type type = Type::sphere;                                        // kind of shape
   Eigen::Isometry3d X_body_shape = Eigen::Isometry3d::Identity();  // pose in the body
-  /// [m] box: edges; cylinder: radius, -, length; sphere: radius
+  /// [m] box: edges; cylinder: radius, -, length; sphere: radius; capsule: radius, -, length between its centres
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   std::string mesh;                                 // absolute path of the mesh file
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  // of the mesh
@@ -65,6 +65,10 @@ struct Joint {
   double upper = 0.0;                               // [rad or m]; infinity if continuous
   double speed = 0.0;   // [rad/s or m/s]; infinity if continuous and without a limit
   double effort = 0.0;  // [N·m or N]; likewise
+
+  // URDF's <dynamics>, ≥ 0; 0 where it gives none. Not simulated.
+  double damping = 0.0;   // [N·m·s/rad or N·s/m] torque against the velocity
+  double friction = 0.0;  // [N·m or N] torque against the motion, whatever its velocity
 
   // A follower (URDF's mimic) is a joint like any other, with a torque of its own; it belongs at
   // q = multiplier·q_leader + offset.
@@ -101,9 +105,11 @@ struct RobotModel {
   std::vector<Body> bodies;   // parents before children
   std::vector<Frame> frames;  // one per URDF link, the root link first
 
-  // What was left out of the URDF, a line each.
-  std::vector<std::string> missing_meshes;   // link, name, where the file was looked for
-  std::vector<std::string> ignored_inertia;  // of a link whose mass is 0
+  /// Left out, a line each: link, name, where the file was looked for.
+  std::vector<std::string> missing_meshes;
+  /// What is odd about the URDF, and what was done about it: a line each, as in
+  /// `link "b": mass 1e-20 kg: taken for none`.
+  std::vector<std::string> warnings;
 
   int dof() const { return static_cast<int>(joints.size()); }  // n
   /// @throws Error  no joint of that name (lists those there are)
@@ -123,18 +129,33 @@ struct RobotModel {
   /// A link without inertial, or with one of mass 0, has none (as in Bullet; other readers take the former for 1 kg); one
   /// of some mass with an inertia of zeros is a point. Where a joint moves such links alone (the "dummy links" of a
   /// wrist), what is behind them must make up for it: the joints' inertia matrix, scaled to a diagonal of ones, must
-  /// have no eigenvalue below 1e-5 in a few hundred positions within the limits, joints at 0, at right angles and at a
-  /// limit among them. With less, rounding shows in Bullet's accelerations (1e-9 rad/s²).
+  /// have no eigenvalue below 1e-5 in 100 random positions within the limits. Where that fails, the heaviest point that is
+  /// turned gets the inertia of a ball of water of its mass, with a warning, and then the next, as long as it helps. Where
+  /// it fails in special positions only (300 with joints at 0, at right angles and at limits, such as a wrist without mass
+  /// that is stretched), a warning says so: there, accelerations have no bound.
   ///
-  /// Refused, with file, element and value: what urdfdom refuses or complains of (it drops a link's
-  /// unknown shapes, for one, and calls that success); xacro that is not expanded; joints that are
-  /// floating or planar; a joint that mimics itself, in a ring, or one that is not there or fixed; links that are not
-  /// in one tree; a mass < 0; an inertia that is neither zeros nor positive definite, or breaks the triangle
-  /// rule by more than 5 % (by less, many that are rounded do); a moving body whose mass or inertia is missed; a zero axis; lower > upper; negative or missing effort
-  /// or speed; shapes of size ≤ 0; a mesh scale of 0; a mesh file that is not found, unless the
-  /// settings leave it out. Values that are not finite never pass urdfdom. A continuous joint has no
-  /// position limits and may go without <limit>. Not read: <dynamics>, <safety_controller>,
-  /// <calibration>, <transmission>, textures; an undefined material counts as none. Mesh names may
+  /// Refused, with file, element and value, is what cannot be simulated: XML and numbers that cannot be read, or are not
+  /// finite; xacro that is not expanded; links that are not in one tree, named twice, or not there; a type of joint that
+  /// neither URDF nor Bullet knows; a zero axis; moving bodies whose mass, with all that is fixed to them, is negative;
+  /// moving bodies without mass that leave the joints' inertia matrix singular in most positions, or with a negative moment
+  /// that makes it negative in any; masses and moments beyond 1e15, distances and position limits beyond 1e9; and a mesh
+  /// file that is not found, unless the settings leave it out. The base is fixed: its mass and inertia move nothing.
+  ///
+  /// Everything else that is odd is taken in, and told in `warnings`:
+  /// - inertia of a link: moments that are negative by rounding (1e-6 of the largest, or a gyration of 1 µm) are taken for 0; others that are
+  ///   negative, or break the triangle rule, and masses < 0 are counted as they are: what matters is the body that the link
+  ///   is part of. Products that are missing are 0, a mass without inertia is a point, less than 1e-15 kg is no mass;
+  /// - joints that move nothing with mass (finger pads), and spherical, floating and planar joints, are held where they
+  ///   are: they become fixed, at 0 or at the limit next to it;
+  /// - lower > upper means no limit, as in Bullet; so do missing limits, and a negative effort or speed. A revolute joint
+  ///   without position limits is continuous;
+  /// - a joint that mimics itself, in a ring, or one that does not move, follows none; negative damping or friction is 0;
+  /// - `<capsule>`, which URDF lacks, is Bullet's along z; other unknown shapes, and those of size or scale ≤ 0, are left out;
+  /// - a robot without a name is called after its file; of materials of one name the first counts, those that say nothing
+  ///   are left out; of vectors of too many numbers the first count; a scale of one number is that of all axes, a colour of
+  ///   three is opaque.
+  ///
+  /// A continuous joint may go without <limit>. Not read: <safety_controller>, <calibration>, <transmission>, textures; an undefined material counts as none. Mesh names may
   /// be `package://NAME/…` (folders of `package_path`, then ROS_PACKAGE_PATH, then the folders
   /// above the URDF, which may be the package or hold it), `file://…`, or relative to the URDF.
   /// @throws Error
