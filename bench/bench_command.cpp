@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/columns.hpp"
 #include "bench/compare.hpp"
@@ -18,6 +20,7 @@
 #include "bench/page.hpp"
 #include "bench/progress.hpp"
 #include "bench/report.hpp"
+#include "bench/results_folder.hpp"
 #include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 
@@ -36,6 +39,7 @@ struct Options {
   std::string out = "results";
   std::string baselines;  // folder; empty: none
   bool update = false;
+  bool alone = false;  // one run, seam run
 };
 
 // What is set anew in each scene, at each speed.
@@ -87,6 +91,16 @@ void print(const Comparison& comparison) {
                &run == &comparison.runs.back() ? " real time\n\n" : ",");
 }
 
+// One run would take the place of what a bench has compared.
+void require_no_comparison(const std::string& results) {
+  const std::string path = (std::filesystem::path(results) / "summary.json").string();
+  if (!std::filesystem::exists(path)) return;
+  const auto json = nlohmann::json::parse(std::ifstream(path), nullptr, false);
+  const auto runs = json.is_object() ? json.find("runs") : json.end();
+  if (json.is_object() && runs != json.end() && runs->size() == 1) return;
+  throw Error(results, "holds what seam bench has compared, needs another folder (--out)");
+}
+
 // Whether all figures are as in the baselines, or they are renewed.
 bool check(const std::vector<Comparison>& comparisons, Baselines& baselines,
            const Options& options) {
@@ -100,7 +114,6 @@ bool check(const std::vector<Comparison>& comparisons, Baselines& baselines,
 }
 
 bool bench(const Options& options) {
-  if (options.out.empty()) throw Error("--out", "is empty, must be a folder");
   if (options.update && options.baselines.empty())
     throw Error("--update", "needs --check, which names the baselines");
   if (options.list) {
@@ -111,8 +124,11 @@ bool bench(const Options& options) {
   if (!options.baselines.empty())
     baselines.emplace(options.update ? options.baselines : own_or_given(options.baselines));
   require_gnuplot();
+  ResultsFolder folder(options.out);
+  if (options.alone) require_no_comparison(options.out);
   const auto comparisons =
       compare(read_scenes(options), read_methods(options.methods), options.jobs, show_progress);
+  folder.make();
   write_results(comparisons, SEAM_VERSION, options.out);
   for (const Comparison& comparison : comparisons) print(comparison);
   if (comparisons.size() > 1) fmt::print("{}\n", overview(comparisons));
@@ -165,6 +181,7 @@ void add_bench_command(CLI::App& app) {
 
 void add_run_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
+  options->out = "results/run";
   CLI::App& command = *app.add_subcommand("run", "play one scene with one method");
   command.add_option("scene", options->scenes, "scene file, or name of one of seam's own")
       ->required()
@@ -175,6 +192,7 @@ void add_run_command(CLI::App& app) {
       ->expected(1);
   add_common(command, *options);
   command.callback([options] {
+    options->alone = true;
     if (options->methods.empty()) options->methods = {own_method(*options)};
     bench_and_exit(*options);
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,25 +38,67 @@ std::string heading_of(std::string name) {
   return name + unit;
 }
 
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+// What is said of joints in rad and N·m, in the units of those that there are.
+std::string of_joints(const Recording& recording, const std::string& heading) {
+  std::size_t sliding = 0;
+  for (std::size_t i = 0; i < recording.joints.size(); ++i) sliding += recording.slides_at(i);
+  if (sliding == 0 || heading.rfind("tool", 0) == 0) return heading;
+  const bool all = sliding == recording.joints.size();
+  return replaced(replaced(heading, "[rad", all ? "[m" : "[rad or m"), "[N·m",
+                  all ? "[N" : "[N·m or N");
+}
+
+// Which accelerations jump, in what they are measured, and whether they were recorded.
+struct Jumps {
+  explicit Jumps(const Recording& recording) {
+    const bool tool = recording.in_task_space();
+    linear = tool;
+    angular = tool && recording.coordinates.size() > 3;
+    for (std::size_t i = 0; i < recording.joints.size() && !tool; ++i)
+      (recording.slides_at(i) ? linear : angular) = true;
+    for (const RecordedJoin& join : recording.joins)
+      estimated |= std::isnan(join.acceleration_jump) && std::isnan(join.linear_jump);
+  }
+  std::string heading(const char* unit) const {
+    return std::string("acceleration jump") + (estimated ? ", estimated" : "") + unit;
+  }
+  std::string error_heading(const char* unit) const { return std::string("off by about") + unit; }
+
+  bool linear = false, angular = false, estimated = false;
+};
+
 }  // namespace
 
 std::vector<Column> columns(const Recording& recording) {
   const bool tool = recording.in_task_space();
-  const bool angles = !tool || recording.coordinates.size() > 3;
+  const Jumps jumps(recording);
   using M = RunMetrics;
   std::vector<Column> list;
-  const auto add = [&](bool there, const Column& column) {
-    if (there) list.push_back(column);
+  const auto add = [&](bool there, Column column) {
+    column.heading = of_joints(recording, column.heading);
+    if (there) list.push_back(std::move(column));
+  };
+  const auto add_jump = [&](bool there, const char* unit, Metric size, const char* name,
+                            Metric error, const char* error_name) {
+    if (!there) return;
+    list.push_back(metric(name, jumps.heading(unit).c_str(), "{:.2g}", size));
+    if (jumps.estimated)
+      list.push_back(metric(error_name, jumps.error_heading(unit).c_str(), "{:.2g}", error));
   };
   add(true, metric("torque_jump_nm", "torque jump [N·m]", "{:.3g}", &M::torque_jump_nm));
   add(true, metric("torque_jump_percent", "torque jump, of the limit [%]", "{:.2g}",
                    &M::torque_jump_percent));
   add(true,
       metric("torque_jump_order", "torque jump, order in dt", "{:.2f}", &M::torque_jump_order));
-  add(tool, metric("acceleration_jump_m_s2", "acceleration jump [m/s²]", "{:.2g}",
-                   &M::acceleration_jump_m_s2));
-  add(angles, metric("acceleration_jump_rad_s2", "acceleration jump [rad/s²]", "{:.2g}",
-                     &M::acceleration_jump_rad_s2));
+  add_jump(jumps.linear, " [m/s²]", &M::acceleration_jump_m_s2, "acceleration_jump_m_s2",
+           &M::acceleration_jump_error_m_s2, "acceleration_jump_error_m_s2");
+  add_jump(jumps.angular, " [rad/s²]", &M::acceleration_jump_rad_s2, "acceleration_jump_rad_s2",
+           &M::acceleration_jump_error_rad_s2, "acceleration_jump_error_rad_s2");
   add(true, metric("torque_rate_peak_nm_s", "torque rate, peak [N·m/s]", "{:.0f}",
                    &M::torque_rate_peak_nm_s));
   add(true, metric("torque_rate_rms_nm_s", "torque rate, RMS [N·m/s]", "{:.0f}",
@@ -100,15 +143,21 @@ std::map<std::string, double> figures(const Run& run) {
 
 std::vector<JoinColumn> join_columns(const Recording& recording) {
   using J = JoinMetrics;
+  const Jumps jumps(recording);
   std::vector<JoinColumn> list{
       {"torque_jump_nm", "torque jump [N·m]", "{:.3g}", &J::torque_jump_nm},
       {"torque_jump_percent", "torque jump, of the limit [%]", "{:.2g}", &J::torque_jump_percent},
-      {"torque_jump_order", "torque jump, order in dt", "{:.2f}", &J::torque_jump_order},
-      {"acceleration_jump_rad_s2", "acceleration jump [rad/s²]", "{:.2g}",
-       &J::acceleration_jump_rad_s2}};
-  if (recording.in_task_space())
-    list.push_back({"acceleration_jump_m_s2", "acceleration jump [m/s²]", "{:.2g}",
-                    &J::acceleration_jump_m_s2});
+      {"torque_jump_order", "torque jump, order in dt", "{:.2f}", &J::torque_jump_order}};
+  const auto add_jump = [&](bool there, const char* unit, double J::*size, const char* name,
+                            double J::*error, const char* error_name) {
+    if (!there) return;
+    list.push_back({name, jumps.heading(unit), "{:.2g}", size});
+    if (jumps.estimated) list.push_back({error_name, jumps.error_heading(unit), "{:.2g}", error});
+  };
+  add_jump(jumps.angular, " [rad/s²]", &J::acceleration_jump_rad_s2, "acceleration_jump_rad_s2",
+           &J::acceleration_jump_error_rad_s2, "acceleration_jump_error_rad_s2");
+  add_jump(jumps.linear, " [m/s²]", &J::acceleration_jump_m_s2, "acceleration_jump_m_s2",
+           &J::acceleration_jump_error_m_s2, "acceleration_jump_error_m_s2");
   list.push_back({"tracking_max_rad", "tracking [rad]", "{:.1e}", &J::tracking_max_rad});
   if (recording.in_task_space()) {
     list.push_back({"tool_tracking_max_m", "tool tracking [m]", "{:.1e}", &J::tool_tracking_max_m});
@@ -117,6 +166,7 @@ std::vector<JoinColumn> join_columns(const Recording& recording) {
   }
   list.push_back({"deviation_peak_rad", "deviation [rad]", "{:.3f}", &J::deviation_peak_rad});
   list.push_back({"deviation_faded_s", "faded after [s]", "{:.2f}", &J::deviation_faded_s});
+  for (JoinColumn& column : list) column.heading = of_joints(recording, column.heading);
   return list;
 }
 

@@ -11,6 +11,7 @@
 #include "bench/names.hpp"
 #include "bench/options.hpp"
 #include "bench/progress.hpp"
+#include "bench/results_folder.hpp"
 #include <seam/error.hpp>
 
 namespace seam {
@@ -51,6 +52,8 @@ void answer_all(const Options& options) {
     return;
   }
   require_gnuplot();
+  ResultsFolder folder(options.out);
+  folder.make();
   for (const Experiment& experiment : experiments) {
     const auto progress = [&](int done, int total) { show_progress(done, total, experiment.name); };
     const std::vector<Measured> measured = perform(experiment, options.jobs, progress);

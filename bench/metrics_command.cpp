@@ -42,9 +42,11 @@ Recording read(const std::string& path, const std::vector<double>& joins) {
 
 void set_limits(const std::string& urdf, Recording& recording) {
   const RobotModel robot = RobotModel::read(urdf);
-  for (std::size_t i = 0; i < recording.joints.size(); ++i)
-    recording.effort(static_cast<Eigen::Index>(i)) =
-        robot.joints[static_cast<std::size_t>(robot.joint(recording.joints[i]))].effort;
+  for (std::size_t i = 0; i < recording.joints.size(); ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(robot.joint(recording.joints[i]))];
+    recording.effort(static_cast<Eigen::Index>(i)) = joint.effort;
+    recording.slides[i] = joint.type == Joint::Type::prismatic;
+  }
 }
 
 bool measured(const RunMetrics& metrics, const JoinColumn& column) {

@@ -9,7 +9,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -219,10 +218,6 @@ SweepFile::SweepFile(const std::string& path, SweepContents contents)
   if (end_ == 0) write(contents_.header());
 }
 
-SweepFile::Descriptor::~Descriptor() {
-  if (number >= 0) close(number);
-}
-
 // The lock goes with the process. Who had it may have finished, and removed the file, since it was opened.
 void SweepFile::open_journal() {
   for (struct stat status{}; status.st_nlink == 0;) {
@@ -230,8 +225,7 @@ void SweepFile::open_journal() {
     descriptor_.number = open(journal().c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_.number < 0 || fstat(descriptor_.number, &status) != 0)
       throw Error(journal(), std::string("cannot be written: ") + std::strerror(errno));
-    if (flock(descriptor_.number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw Error(path_, "is being filled by another seam sweep");
+    if (!take_alone(descriptor_)) throw Error(path_, "is being filled by another seam sweep");
     fstat(descriptor_.number, &status);
   }
 }

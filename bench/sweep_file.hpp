@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/results_folder.hpp"
 #include "bench/sweep_plan.hpp"
 
 namespace seam {
@@ -83,14 +84,6 @@ class SweepFile {
   void finish();
 
  private:
-  struct Descriptor {
-    Descriptor() = default;
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor();
-    int number = -1;
-  };
-
   std::string journal() const { return path_ + ".rows"; }
   void open_journal();
   void write(const std::string& text);

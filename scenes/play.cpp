@@ -25,7 +25,10 @@ Recording room_for(const Scene& scene, int ticks) {
   }
   std::vector<std::string> tool;
   if (scene.tool) tool = scene.sequence.coordinates();
-  return {std::move(names), std::move(effort), ticks, std::move(tool)};
+  Recording recording(std::move(names), std::move(effort), ticks, std::move(tool));
+  for (const Joint& joint : scene.robot.joints)
+    recording.slides.push_back(joint.type == Joint::Type::prismatic);
+  return recording;
 }
 
 void record(const Controller::Tick& tick, double time, Eigen::Index row, Recording& recording) {
@@ -45,13 +48,22 @@ void record(const Controller::Tick& tick, double time, Eigen::Index row, Recordi
   recording.tool_error_rad(row) = tick.tool_error.angle;
 }
 
-// Steps in acceleration of a tool's x y z are linear, of all other coordinates of angles.
+bool linear(const Scene& scene, Eigen::Index coordinate) {
+  if (scene.tool) return coordinate < 3;
+  const std::string& name = scene.sequence.coordinates()[static_cast<std::size_t>(coordinate)];
+  const auto joint = static_cast<std::size_t>(scene.robot.joint(name));
+  return scene.robot.joints[joint].type == Joint::Type::prismatic;
+}
+
+// Steps in acceleration of a tool's x y z and of joints that slide are linear, of all other coordinates of angles.
 RecordedJoin join_of(const Scene& scene, double time, int primitive, const Eigen::VectorXd& before,
                      const Eigen::VectorXd& after) {
-  const Eigen::VectorXd step = (after - before).cwiseAbs();
-  const Eigen::Index linear = scene.tool ? 3 : 0;
-  const auto largest = [](const auto& part) { return part.size() > 0 ? part.maxCoeff() : 0.0; };
-  return {time, primitive, largest(step.tail(step.size() - linear)), largest(step.head(linear))};
+  RecordedJoin join{time, primitive, 0.0, 0.0};
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    double& largest = linear(scene, i) ? join.linear_jump : join.acceleration_jump;
+    largest = std::max(largest, std::abs(after(i) - before(i)));
+  }
+  return join;
 }
 
 // A change on the way is recorded as a join of the primitive with itself.

@@ -71,7 +71,11 @@ int run(int argc, char** argv) {
   app.add_flag("--strict", strict, "exit code 1 if a bar is missed");
   app.add_option("--out", out, "file for the table (Markdown)");
   app.footer("Google Benchmark's options are taken too, e.g. --benchmark_filter=REGEX.");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& shown) {
+    return app.exit(shown);
+  }
   add_step_benchmarks();
   add_tick_benchmarks();
   add_world_benchmarks();

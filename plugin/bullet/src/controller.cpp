@@ -4,6 +4,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include "state_check.hpp"
 #include <seam/controller.hpp>
 #include <seam/error.hpp>
 #include <seam/plugin.hpp>
@@ -66,14 +67,6 @@ const ControlSettings& valid(const ControlSettings& settings) {
   return settings;
 }
 
-bool same(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& y) {
-  return (x - y).squaredNorm() == 0.0;
-}
-
-bool finite(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
-  return std::isfinite(q.sum() + qd.sum());
-}
-
 bool same_motion(const Sample& a, const Sample& b) {
   return same(a.position, b.position) && same(a.velocity, b.velocity) &&
          same(a.acceleration, b.acceleration);
@@ -84,9 +77,17 @@ constexpr double mark = 0.1234567890123;  // [N·m]
 
 }  // namespace
 
+Controller::Claim::Claim(const Robot& robot) : controlled_(robot.controlled()) {
+  if (*controlled_)
+    throw Error(robot.model().name,
+                "has a controller already, whose torques those of another would add to");
+  *controlled_ = true;
+}
+
 Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
                        const ControllerSettings& settings)
     : robot_(robot),
+      claim_(robot),
       tick_(tick_at(robot, known(robot, settings).dof())),
       joints_(reference(known(robot, settings), sequence, settings.tool, tick_.q)),
       sequencer_(sequence, join, joints_->measured(tick_.q, tick_.qd)),

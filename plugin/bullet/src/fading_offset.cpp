@@ -1,4 +1,5 @@
 #include <seam/fading_offset.hpp>
+#include <seam/quintic.hpp>
 
 namespace seam {
 
@@ -41,9 +42,9 @@ void FadingOffset::add_to(Sample& reference) const noexcept {
   constexpr double T = duration;
   const double s = time_ / T;
   const double s2 = s * s, s3 = s2 * s;
-  const double a = 1.0 - s3 * (10.0 + s * (-15.0 + 6.0 * s));
-  const double a1 = -30.0 * s2 * (1.0 - s) * (1.0 - s) / T;
-  const double a2 = -60.0 * s * (1.0 + s * (-3.0 + 2.0 * s)) / (T * T);
+  const double a = fade(s);
+  const double a1 = fade_slope(s) / T;
+  const double a2 = fade_curvature(s) / (T * T);
   const double b = T * (s + s3 * (-6.0 + s * (8.0 - 3.0 * s)));
   const double b1 = 1.0 + s2 * (-18.0 + s * (32.0 - 15.0 * s));
   const double b2 = s * (-36.0 + s * (96.0 - 60.0 * s)) / T;

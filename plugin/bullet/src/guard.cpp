@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "settings_check.hpp"
+#include "state_check.hpp"
 #include <seam/error.hpp>
 #include <seam/guard.hpp>
 
@@ -20,10 +21,6 @@ void require_bound(const char* what, double value) {
 double slack(const Joint& joint, double share) {
   const double range = joint.upper - joint.lower;
   return std::isinf(share) || std::isinf(range) ? infinity : share * range;
-}
-
-bool same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return std::equal(a.data(), a.data() + a.size(), b.data());
 }
 
 const char* unit(const Joint& joint) {
@@ -86,9 +83,9 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings, double dela
 bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                    const Eigen::VectorXd& reference) noexcept {
   watched_ += dt;
-  const bool finite = std::isfinite(q.sum() + qd.sum());
+  const bool known = finite(q, qd);
   const bool stands = begun_ && same(q, seen_q_) && same(qd, seen_qd_);
-  if (finite && (!stands || watched_ < delay_ + 1.5 * dt)) {
+  if (known && (!stands || watched_ < delay_ + 1.5 * dt)) {
     seen_q_ = q;
     seen_qd_ = qd;
     reference_ = reference;
@@ -96,7 +93,7 @@ bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& q
   }
   frozen_ = stands && (frozen_ || (reference - reference_).lpNorm<Eigen::Infinity>() >
                                       settings_.frozen_beyond);
-  const bool trusted = finite && !frozen_;
+  const bool trusted = known && !frozen_;
   dropout_ = trusted ? 0.0 : dropout_ + dt;
   return trusted;
 }

@@ -59,6 +59,7 @@ struct Robot::Parts {
   btAlignedObjectArray<btQuaternion> rotations;  // workspaces of place_colliders
   btAlignedObjectArray<btVector3> origins;
   std::optional<WorldWatch> watch;
+  std::shared_ptr<bool> controlled = std::make_shared<bool>(false);
 };
 
 Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
@@ -131,6 +132,10 @@ Robot::Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSetti
 Robot::Robot(Robot&&) noexcept = default;
 Robot& Robot::operator=(Robot&&) noexcept = default;
 Robot::~Robot() = default;
+
+const std::shared_ptr<bool>& Robot::controlled() const noexcept {
+  return parts_->controlled;
+}
 
 const RobotModel& Robot::model() const noexcept {
   return parts_->model;

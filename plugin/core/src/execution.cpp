@@ -3,6 +3,7 @@
 
 #include "vectors.hpp"
 #include <seam/execution.hpp>
+#include <seam/quintic.hpp>
 
 namespace seam {
 
@@ -69,13 +70,6 @@ SEAM_WIDEST_VECTORS void observe(double k, double c, double b, int D, const doub
 }
 
 // 1 − (10s³ − 15s⁴ + 6s⁵), and its derivative with respect to s.
-double fade(double s) {
-  return s < 1.0 ? 1.0 - s * s * s * (10.0 + s * (-15.0 + 6.0 * s)) : 0.0;
-}
-double fade_slope(double s) {
-  return s < 1.0 ? -30.0 * s * s * (1.0 - s) * (1.0 - s) : 0.0;
-}
-
 }  // namespace
 
 Execution::Execution(const Primitive& primitive)
@@ -199,7 +193,7 @@ Execution::Forcing Execution::present(Eigen::Index d) const noexcept {
 
 // How much of the half cycle has gone by in which a rhythmic primitive's change fades.
 double Execution::faded(double phase) const noexcept {
-  return (phase - joined_phase_) / M_PI;
+  return std::min((phase - joined_phase_) / M_PI, 1.0);
 }
 
 Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noexcept {

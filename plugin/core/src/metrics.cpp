@@ -94,19 +94,50 @@ void measure_torque_jump(const Recording& recording, int line_ticks, JoinMetrics
     metrics.torque_jump_percent = 100.0 * size.cwiseQuotient(recording.effort).maxCoeff();
 }
 
+// The signal at every other tick, so that the first one from `at` on is among them.
+Eigen::MatrixXd every_other(const Eigen::VectorXd& time, const Eigen::MatrixXd& signal, double at) {
+  const Eigen::Index first = tick_at(time, at) % 2;
+  const Eigen::Index rows = (signal.rows() - first + 1) / 2;
+  return signal(Eigen::seqN(first, rows, 2), Eigen::all);
+}
+
+// Of a signal's step, estimated.
+double error_of_jump(const Recording& recording, const Eigen::MatrixXd& signal, double at, int n) {
+  if (signal.size() == 0) return unknown;
+  const Eigen::VectorXd fine = jump(recording.time, signal, at, n);
+  const Eigen::VectorXd coarse = jump(every_other(recording.time, recording.time, at),
+                                      every_other(recording.time, signal, at), at, n);
+  return peak((coarse - fine) / 3.0);
+}
+
+// The columns of joints that slide, or of those that turn.
+Eigen::MatrixXd of_joints(const Recording& recording, const Eigen::MatrixXd& signal, bool sliding) {
+  Eigen::MatrixXd columns(signal.rows(), 0);
+  for (Eigen::Index c = 0; c < signal.cols(); ++c) {
+    if (recording.slides_at(static_cast<std::size_t>(c)) != sliding) continue;
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.rightCols<1>() = signal.col(c);
+  }
+  return columns;
+}
+
 // As recorded, else estimated.
 void measure_acceleration_jump(const Recording& recording, const RecordedJoin& join, int line_ticks,
                                JoinMetrics& metrics) {
-  metrics.acceleration_jump_rad_s2 = join.acceleration_jump;
-  metrics.acceleration_jump_m_s2 = join.linear_jump;
   const bool tool = recording.in_task_space() && recording.tool_acc.cols() >= 3;
-  const Eigen::MatrixXd angles =
-      tool ? recording.tool_acc.rightCols(recording.tool_acc.cols() - 3) : recording.ref_acc;
-  if (std::isnan(join.acceleration_jump))
-    metrics.acceleration_jump_rad_s2 = largest_jump(recording, angles, join.time, line_ticks);
-  if (std::isnan(join.linear_jump) && tool)
-    metrics.acceleration_jump_m_s2 =
-        largest_jump(recording, recording.tool_acc.leftCols<3>(), join.time, line_ticks);
+  const auto measure = [&](double recorded, const Eigen::MatrixXd& signal, double& jump,
+                           double& error) {
+    jump = std::isnan(recorded) ? largest_jump(recording, signal, join.time, line_ticks) : recorded;
+    error = std::isnan(recorded) ? error_of_jump(recording, signal, join.time, line_ticks) : 0.0;
+  };
+  measure(join.acceleration_jump,
+          tool ? Eigen::MatrixXd(recording.tool_acc.rightCols(recording.tool_acc.cols() - 3))
+               : of_joints(recording, recording.ref_acc, false),
+          metrics.acceleration_jump_rad_s2, metrics.acceleration_jump_error_rad_s2);
+  measure(join.linear_jump,
+          tool ? Eigen::MatrixXd(recording.tool_acc.leftCols<3>())
+               : of_joints(recording, recording.ref_acc, true),
+          metrics.acceleration_jump_m_s2, metrics.acceleration_jump_error_m_s2);
 }
 
 std::vector<JoinMetrics> measure_joins(const Recording& recording, const MetricSettings& settings) {
@@ -260,6 +291,10 @@ RunMetrics measure(const Recording& recording, const Companions& companions,
   metrics.torque_jump_percent = worst(metrics.joins, &JoinMetrics::torque_jump_percent);
   metrics.acceleration_jump_rad_s2 = worst(metrics.joins, &JoinMetrics::acceleration_jump_rad_s2);
   metrics.acceleration_jump_m_s2 = worst(metrics.joins, &JoinMetrics::acceleration_jump_m_s2);
+  metrics.acceleration_jump_error_rad_s2 =
+      worst(metrics.joins, &JoinMetrics::acceleration_jump_error_rad_s2);
+  metrics.acceleration_jump_error_m_s2 =
+      worst(metrics.joins, &JoinMetrics::acceleration_jump_error_m_s2);
   metrics.tracking_after_join_max_rad = worst(metrics.joins, &JoinMetrics::tracking_max_rad);
   metrics.tool_tracking_after_join_max_m = worst(metrics.joins, &JoinMetrics::tool_tracking_max_m);
   metrics.tool_tracking_after_join_max_rad =

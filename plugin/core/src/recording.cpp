@@ -152,6 +152,8 @@ void name_joints(const Reader& reader, const std::string& path, Recording& recor
     throw Error(path + ":1", "needs columns torque.<joint> [N·m], or others of a recording");
   recording.effort.setConstant(static_cast<Eigen::Index>(recording.joints.size()),
                                std::numeric_limits<double>::quiet_NaN());
+  for (const std::string& name : recording.joints)
+    recording.slides.push_back(contains({"x", "y", "z"}, name));
 }
 
 void take_joints(Reader& reader, Recording& recording) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <seam/quintic.hpp>
 #include <seam/time_scale.hpp>
 
 namespace seam {
@@ -10,17 +11,8 @@ namespace {
 constexpr double most_beyond = 0.1;  // of the rate, or of 1
 constexpr double most_lost = 0.5;    // of the rate
 
-// 1 − (10u³ − 15u⁴ + 6u⁵), its derivatives, and its integral from 0 on.
-double gap_part(double u) {
-  return 1.0 - u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
-}
-double gap_slope(double u) {
-  return -30.0 * u * u * (1.0 - u) * (1.0 - u);
-}
-double gap_curvature(double u) {
-  return -60.0 * u * (1.0 - u) * (1.0 - 2.0 * u);
-}
-double gap_integral(double u) {
+// Of fade(u), from 0 on.
+double fade_integral(double u) {
   return u - u * u * u * u * (2.5 + u * (-3.0 + u));
 }
 
@@ -96,7 +88,7 @@ double TimeScale::advance(double dt) noexcept {
 // Since the rate began to move: the integral of the rate.
 double TimeScale::motion_time(double elapsed) const noexcept {
   const double w = share(elapsed, braking_);
-  return to_ * elapsed + over_ * gap_ * gap_integral(share(elapsed, over_)) +
+  return to_ * elapsed + over_ * gap_ * fade_integral(share(elapsed, over_)) +
          braking_ * braking_ *
              (slope_ * slope_integral(w) + braking_ * curvature_ * curvature_integral(w));
 }
@@ -105,20 +97,20 @@ double TimeScale::rate() const noexcept {
   if (elapsed_ >= over_) return to_;
   const double w = share(elapsed_, braking_);
   const double braking = slope_ * slope_part(w) + braking_ * curvature_ * curvature_part(w);
-  return std::max(0.0, to_ + gap_ * gap_part(elapsed_ / over_) + braking_ * braking);
+  return std::max(0.0, to_ + gap_ * fade(elapsed_ / over_) + braking_ * braking);
 }
 
 double TimeScale::rate_change() const noexcept {
   if (elapsed_ >= over_) return 0.0;
   const double w = share(elapsed_, braking_);
-  return gap_ / over_ * gap_slope(elapsed_ / over_) + slope_ * slope_slope(w) +
+  return gap_ / over_ * fade_slope(elapsed_ / over_) + slope_ * slope_slope(w) +
          braking_ * curvature_ * curvature_slope(w);
 }
 
 double TimeScale::rate_curvature() const noexcept {
   if (elapsed_ >= over_) return 0.0;
   const double w = share(elapsed_, braking_);
-  return gap_ / (over_ * over_) * gap_curvature(elapsed_ / over_) +
+  return gap_ / (over_ * over_) * fade_curvature(elapsed_ / over_) +
          slope_ / braking_ * slope_curvature(w) + curvature_ * curvature_curvature(w);
 }
 

@@ -6,6 +6,9 @@
 #include <mutex>
 #include <set>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <seam/error.hpp>
 #include <seam/whole_file.hpp>
 
@@ -26,6 +29,17 @@ Unfinished& unfinished() {
 
 std::string reason() {
   return std::strerror(errno);
+}
+
+// To the disk, so that a loss of power finds it there. File systems that know no such thing do without.
+void sync(const std::string& path, int how) {
+  const int descriptor = open(path.c_str(), how | O_CLOEXEC);
+  if (descriptor < 0) return;
+  const bool lost = fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP;
+  const int error = errno;
+  close(descriptor);
+  errno = error;
+  if (lost) throw Error(path, "cannot be written: " + reason());
 }
 
 void write_in_place(const std::string& path, const std::function<void(std::ostream&)>& write) {
@@ -96,10 +110,15 @@ PartFile::~PartFile() {
 }
 
 void PartFile::finish() {
-  const std::lock_guard<std::mutex> lock(unfinished().mutex);
-  if (std::rename(name_.c_str(), path_.c_str()) != 0)
-    throw Error(path_, "cannot be written: " + reason());
-  unfinished().names.erase(name_);
+  sync(name_, O_WRONLY);
+  {
+    const std::lock_guard<std::mutex> lock(unfinished().mutex);
+    if (std::rename(name_.c_str(), path_.c_str()) != 0)
+      throw Error(path_, "cannot be written: " + reason());
+    unfinished().names.erase(name_);
+  }
+  const auto folder = std::filesystem::path(path_).parent_path();
+  sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
 }
 
 void PartFile::discard_all() {

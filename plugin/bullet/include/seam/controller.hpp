@@ -78,7 +78,7 @@ class Controller {
     Eigen::VectorXd torque;  // n [N·m]
   };
 
-  /// @throws Error  a coordinate is not a joint of the robot, a goal is outside a joint's limits or out of reach, an
+  /// @throws Error  the robot has a controller already, a coordinate is not a joint of the robot, a goal is outside a joint's limits or out of reach, an
   ///                empty sequence, gains that are negative or not finite, a model whose joints are not the robot's first
   ///                ones, and whatever TaskSpace, Actuator, Sensor and Guard refuse
   Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
@@ -132,7 +132,20 @@ class Controller {
   void brake_from(const Sample& from) noexcept;
   void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
+  // That a robot has one controller. It may be gone before that.
+  class Claim {
+   public:
+    explicit Claim(const Robot& robot);
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+    ~Claim() { *controlled_ = false; }
+
+   private:
+    std::shared_ptr<bool> controlled_;
+  };
+
   Robot& robot_;
+  Claim claim_;
   Tick tick_;
   std::unique_ptr<JointReference> joints_;
   Sequencer sequencer_;

@@ -73,6 +73,9 @@ class Robot {
   Eigen::Vector3d gravity_in_base() const noexcept;
 
  private:
+  friend class Controller;
+  const std::shared_ptr<bool>& controlled() const noexcept;  // whether there is a controller of it
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -49,9 +49,14 @@ struct JoinMetrics {
   /// log₂ of the ratio of torque_jump_nm between dt and dt/2; NaN also where it is rounding alone
   double torque_jump_order = unknown;
   /// [rad/s²] of the reference, largest over joints, in task space over the tool's rx ry rz: as
-  /// recorded (exact), else the `jump` of its acceleration
+  /// recorded (exact), else estimated, the `jump` of its acceleration
   double acceleration_jump_rad_s2 = unknown;
-  double acceleration_jump_m_s2 = unknown;  // [m/s²] likewise, over the tool's x y z
+  /// [m/s²] likewise, over joints that slide, or the tool's x y z
+  double acceleration_jump_m_s2 = unknown;
+  /// About what the estimate is off by: a third of what it changes by at twice the tick (it is of order 2 where the
+  /// acceleration is smooth), largest over what it is taken of. 0: it is exact.
+  double acceleration_jump_error_rad_s2 = unknown;
+  double acceleration_jump_error_m_s2 = unknown;  // likewise
   /// [rad] largest |ref − q| over joints, from the join to after_join later
   double tracking_max_rad = unknown;
   double tool_tracking_max_m = unknown;    // [m] likewise, distance of the tool from its reference
@@ -67,10 +72,12 @@ struct JoinMetrics {
 struct RunMetrics {
   std::vector<JoinMetrics> joins;   // one per join, the start included
   double torque_jump_nm = unknown;  // worst over the joins; NaN where one could not be measured
-  double torque_jump_percent = unknown;       // likewise
-  double torque_jump_order = unknown;         // of the join where torque_jump_nm is largest
-  double acceleration_jump_rad_s2 = unknown;  // worst over the joins
-  double acceleration_jump_m_s2 = unknown;    // likewise
+  double torque_jump_percent = unknown;             // likewise
+  double torque_jump_order = unknown;               // of the join where torque_jump_nm is largest
+  double acceleration_jump_rad_s2 = unknown;        // worst over the joins
+  double acceleration_jump_m_s2 = unknown;          // likewise
+  double acceleration_jump_error_rad_s2 = unknown;  // likewise
+  double acceleration_jump_error_m_s2 = unknown;    // likewise
   double torque_rate_peak_nm_s = unknown;  // [N·m/s] largest |Δtorque|/dt over joints and ticks
   double torque_rate_rms_nm_s = unknown;  // √mean((Δtorque/dt)²) of the joint where it is largest
   double jerk_peak_rad_s3 = unknown;      // [rad/s³] of the reference acceleration, likewise

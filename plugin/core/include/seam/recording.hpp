@@ -17,7 +17,7 @@ struct RecordedJoin {
   int primitive = 0;  // index of the one that took over; 0 is the start
   /// [rad/s²] largest over angles, exact one-sided values; NaN: not known
   double acceleration_jump = std::numeric_limits<double>::quiet_NaN();
-  /// [m/s²] likewise, over the tool's x y z
+  /// [m/s²] likewise, over the tool's x y z and joints that slide
   double linear_jump = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -37,8 +37,10 @@ struct Outcome {
 /// the torque commanded for it. SI units.
 struct Recording {
   std::vector<std::string> joints;  // n names
-  Eigen::VectorXd effort;           // [N·m] n, limits of the joints
-  Eigen::VectorXd time;             // [s] N
+  std::vector<bool>
+      slides;              // n, whose columns are in m and N instead of rad and N·m; empty: none's
+  Eigen::VectorXd effort;  // [N·m] n, limits of the joints
+  Eigen::VectorXd time;    // [s] N
   Eigen::VectorXi running;          // N, index of the running primitive, -1 before the first
   Eigen::MatrixXd ref;              // N × n, the joints' reference
   Eigen::MatrixXd ref_vel;          // N × n, per second
@@ -72,13 +74,16 @@ struct Recording {
   /// [s] mean; a clock that is written with few digits is uneven in the last.
   double dt() const { return (time(time.size() - 1) - time(0)) / (ticks() - 1); }
 
+  bool slides_at(std::size_t joint) const {
+    return joint < slides.size() && slides[joint];
+  }  // joint by joint
   /// Whether there is a tool's reference.
   bool in_task_space() const { return !coordinates.empty(); }
 
   /// Reads what `write` writes, or any CSV with `time` [s] first, at even ticks. Joints are those of the columns
   /// torque.<j>, q.<j>, qd.<j>, else those of ref.<j>; each kind of column is there for all of them or for none, and is then
   /// empty. ref.<c> of x y z, or of x y z rx ry rz, that are no joints make it a recording in task space. Columns of other
-  /// names become signals. A join is where `switch` changes, at its first new tick; a change of goal or τ does not show
+  /// names become signals. Joints x, y and z slide. A join is where `switch` changes, at its first new tick; a change of goal or τ does not show
   /// there. The joins' acceleration jumps and the joints' effort limits are not in the file: NaN.
   /// @throws Error  names the file, the line or the column, and what would be right
   static Recording read(const std::string& path);

@@ -16,7 +16,7 @@ namespace SEAM_API seam {
 std::string read_whole(const std::string& path, const std::string& kind, std::uintmax_t most);
 
 /// Writes a file so that it appears whole or not at all, and what was there before stays until then, whenever the process
-/// is killed (a machine that loses power is another matter). See PartFile. A device or a pipe (/dev/stdout) is written to
+/// is killed or the machine loses power. See PartFile. A device or a pipe (/dev/stdout) is written to
 /// as it is, a link's target is replaced and not the link. One writer at a time for a path.
 /// @throws Error  cannot be written (names the reason, e.g. no space left on device)
 void write_whole(const std::string& path, const std::string& content);
@@ -36,8 +36,8 @@ class PartFile {
 
   /// PATH.part, to write to. It must not be made anew.
   const std::string& name() const { return name_; }
-  /// Renames it to PATH.
-  /// @throws Error  cannot be renamed
+  /// Has it written to the disk, renames it to PATH, and has that written to the disk.
+  /// @throws Error  it cannot be written or renamed
   void finish();
 
   /// Removes all that there are, for a program that is about to end on a signal: no other will begin or finish. To be called
