@@ -5,6 +5,7 @@
 #include "bench/experiment_command.hpp"
 #include "bench/learn_command.hpp"
 #include "bench/metrics_command.hpp"
+#include "bench/options.hpp"
 #include "bench/render_command.hpp"
 #include "bench/report_command.hpp"
 #include "bench/rollout_command.hpp"
@@ -23,6 +24,7 @@ void add_commands(CLI::App& app) {
   add_metrics_command(app);
   add_check_command(app);
   add_report_command(app);
+  require_numbers(app);
 }
 
 }  // namespace seam

@@ -18,6 +18,7 @@ namespace seam {
 namespace {
 
 constexpr double longest = 600.0;  // [s] for a sequence that might never finish
+constexpr double most_rows = 2e6;
 
 struct Options {
   std::string sequence;
@@ -44,10 +45,17 @@ void append_row(const Sequencer& sequencer, double time, std::vector<double>& ro
     rows.insert(rows.end(), part->begin(), part->end());
 }
 
+void require_rows(double time, const Options& options) {
+  if (time > most_rows * options.dt)
+    throw Error("--dt", fmt::format("{:g} s gives more than {:g} rows, must be larger", options.dt,
+                                    most_rows));
+}
+
 // Rows at k·dt until the end, which is known when the last switch has been due.
 std::vector<double> play(Sequencer& sequencer, const Options& options) {
   std::vector<double> rows;
   double end = options.duration > 0.0 ? options.duration : INFINITY;
+  require_rows(options.duration, options);
   for (long k = 0;; ++k) {
     const double time = static_cast<double>(k) * options.dt;
     if (sequencer.finished() && std::isinf(end)) end = time + options.settle;
@@ -56,6 +64,7 @@ std::vector<double> play(Sequencer& sequencer, const Options& options) {
       throw Error(options.sequence, fmt::format("primitive {} has not handed over after {:g} s, "
                                                 "needs --duration",
                                                 sequencer.running() + 1, longest));
+    require_rows(time, options);
     append_row(sequencer, time, rows);
     sequencer.step(options.dt);
   }

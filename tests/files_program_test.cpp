@@ -194,6 +194,23 @@ TEST(RolloutCommand, NeedsADurationWhereNothingEndsTheSequence) {
   EXPECT_EQ(Table::read(kitchen.path("out.csv")).values.rows(), 51);
 }
 
+TEST(RolloutCommand, RefusesMoreRowsThanMemoryHolds) {
+  const Kitchen kitchen;
+  const std::string path = kitchen.write("task.yaml",
+                                         "format: seam-sequence 1\n"
+                                         "primitives: {reach: {demonstration: reach.csv}}\n"
+                                         "steps: [{play: reach}]\n");
+  const std::string call = "rollout " + path + " --method dmp3 -o " + kitchen.path("out.csv");
+  for (const char* options : {" --dt 1e-6 --duration 36000", " --dt 1e-5 --settle 3600"}) {
+    const Outcome outcome = run(call + options);
+    EXPECT_EQ(outcome.status, 2) << options;
+    EXPECT_THAT(outcome.output,
+                AllOf(testing::StartsWith("seam: --dt: 1e-0"),
+                      HasSubstr(" s gives more than 2e+06 rows, must be larger\n")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(kitchen.path("out.csv")));
+}
+
 TEST(FilesProgram, Helps) {
   for (const char* arguments : {"learn --help", "rollout --help"}) {
     const Outcome outcome = run(arguments);
@@ -236,7 +253,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoSequence", "rollout @task.yaml -o @out.csv --method dmp3",
                 "task.yaml: cannot be read"},
         BadCall{"NotASequence", "rollout @reach.csv -o @out.csv --method dmp3", "reach.csv:1: "},
-        BadCall{"ZeroStep", "rollout @task.yaml -o @out.csv --method dmp3 --dt 0", "--dt"}),
+        BadCall{"ZeroStep", "rollout @task.yaml -o @out.csv --method dmp3 --dt 0", "--dt"},
+        BadCall{"StepIsNoNumber", "rollout @task.yaml -o @out.csv --method dmp3 --dt nan",
+                "--dt: nan, must be a finite number"},
+        BadCall{"EndlessDuration", "rollout @task.yaml -o @out.csv --method dmp3 --duration 1e300",
+                "--duration: Value 1e300 not in range"}),
     test::by_name);
 
 }  // namespace
