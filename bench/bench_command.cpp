@@ -96,9 +96,8 @@ void require_no_comparison(const std::string& results) {
   const std::string path = (std::filesystem::path(results) / "summary.json").string();
   if (!std::filesystem::exists(path)) return;
   const auto json = nlohmann::json::parse(std::ifstream(path), nullptr, false);
-  const auto runs = json.is_object() ? json.find("runs") : json.end();
-  if (json.is_object() && runs != json.end() && runs->size() == 1) return;
-  throw Error(results, "holds what seam bench has compared, needs another folder (--out)");
+  if (json.is_object() && json.contains("runs") && json["runs"].size() > 1)
+    throw Error(results, "holds what seam bench has compared, needs another folder (--out)");
 }
 
 // Whether all figures are as in the baselines, or they are renewed.
@@ -124,10 +123,11 @@ bool bench(const Options& options) {
   if (!options.baselines.empty())
     baselines.emplace(options.update ? options.baselines : own_or_given(options.baselines));
   require_gnuplot();
+  const std::vector<Scene> scenes = read_scenes(options);
+  const std::vector<Join> methods = read_methods(options.methods);
   ResultsFolder folder(options.out);
   if (options.alone) require_no_comparison(options.out);
-  const auto comparisons =
-      compare(read_scenes(options), read_methods(options.methods), options.jobs, show_progress);
+  const auto comparisons = compare(scenes, methods, options.jobs, show_progress);
   folder.make();
   write_results(comparisons, SEAM_VERSION, options.out);
   for (const Comparison& comparison : comparisons) print(comparison);

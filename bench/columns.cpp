@@ -67,7 +67,9 @@ struct Jumps {
   std::string heading(const char* unit) const {
     return std::string("acceleration jump") + (estimated ? ", estimated" : "") + unit;
   }
-  std::string error_heading(const char* unit) const { return std::string("off by about") + unit; }
+  std::string error_heading(const char* unit) const {
+    return std::string("estimate off by about") + unit;
+  }
 
   bool linear = false, angular = false, estimated = false;
 };

@@ -5,6 +5,7 @@
 #include "scenes/world.hpp"
 #include "tests/allocation_guard.hpp"
 #include "tests/elbow.hpp"
+#include "tests/support.hpp"
 #include <seam/bullet.hpp>
 #include <seam/seam.hpp>
 
@@ -50,6 +51,21 @@ TEST(Controller, LeavesAnErrorOfOrderDtWithThePlainReference) {
   const double fine = worst_tracking(1e-3, plain);
   EXPECT_GT(fine, 1e-5);
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.2);
+}
+
+TEST(Controller, IsTheOnlyOneOfItsRobot) {
+  World world;
+  Arm arm(world);
+  {
+    const Controller first(arm.robot, elbow_task(), Join::dmp2);
+    EXPECT_EQ(test::refusal([&] { Controller(arm.robot, elbow_task(), Join::dmp3); }),
+              "pa10: has a controller already, whose torques those of another would add to");
+    EXPECT_THROW(Controller(arm.robot, elbow_task(), Join::dmp3), Error);  // still
+  }
+  EXPECT_NO_THROW(Controller(arm.robot, elbow_task(), Join::dmp3));
+  EXPECT_THROW(Controller(arm.robot, Sequence(), Join::dmp3), Error);
+  EXPECT_NO_THROW(
+      Controller(arm.robot, elbow_task(), Join::dmp3));  // one that failed leaves nothing
 }
 
 TEST(Controller, RecoversFromAPush) {

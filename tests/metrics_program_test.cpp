@@ -41,12 +41,13 @@ TEST(MetricsCommand, FindsTheJoinsAndMeasuresThem) {
       run("metrics " + folder.path("full.csv") + " --half " + folder.path("half.csv") +
           " --compare " + folder.path("full.csv") + " --urdf " SEAM_ASSETS "/pa10/pa10.urdf");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("2 joints, 20 ticks of 10 ms, 1 join\n"),
-                                    HasSubstr("| 0.1      | E1 "),
-                                    HasSubstr("| torque jump [N·m]                 |       3 |"),
-                                    HasSubstr("| torque jump, order in dt          |    0.00 |"),
-                                    HasSubstr("| tracking, max [rad]               | 4.8e-02 |"),
-                                    HasSubstr("| deviation, peak [rad]             |   0.000 |")));
+  EXPECT_THAT(
+      outcome.output,
+      AllOf(HasSubstr("2 joints, 20 ticks of 10 ms, 1 join\n"), HasSubstr("| 0.1      | E1 "),
+            HasSubstr("| torque jump [N·m]                     |       3 |"),
+            HasSubstr("| torque jump, order in dt              |    0.00 |"),
+            HasSubstr("| tracking, max [rad]                   | 4.8e-02 |"),
+            HasSubstr("| deviation, peak [rad]                 |   0.000 |")));
   EXPECT_THAT(outcome.output, testing::Not(HasSubstr("not measured")));
 }
 
@@ -92,8 +93,32 @@ TEST(MetricsCommand, MeasuresWhatARolloutWrites) {
   const Outcome outcome = run("metrics --json " + folder.write("rollout.csv", text));
   ASSERT_EQ(outcome.status, 0) << outcome.output;
   const auto json = nlohmann::json::parse(outcome.output);
-  EXPECT_NEAR(json["metrics"]["acceleration_jump_rad_s2"].get<double>(), 7.0, 1e-12);
+  EXPECT_NEAR(json["metrics"]["acceleration_jump_m_s2"].get<double>(), 7.0, 1e-12);
+  EXPECT_FALSE(json["metrics"].contains("acceleration_jump_rad_s2"));  // z is in metres
   EXPECT_NEAR(json["metrics"]["jerk_peak_rad_s3"].get<double>(), 700.0, 1e-9);
+  EXPECT_THAT(
+      run("metrics " + folder.path("rollout.csv")).output,
+      AllOf(HasSubstr("| acceleration jump, estimated [m/s²] "), HasSubstr("| jerk, peak [m/s³] "),
+            HasSubstr("| estimate off by about [m/s²] "), testing::Not(HasSubstr("[rad"))));
+}
+
+// A smooth acceleration has an error as large as the jump that is estimated, a step has none.
+TEST(MetricsCommand, SaysHowFarAnEstimatedJumpMayBeOff) {
+  const Recordings folder;
+  std::string text = "time,switch,ref.a,ref_acc.a,ref.z,ref_acc.z\n";
+  for (int k = 0; k < 40; ++k) {
+    const double t = 0.01 * (k - 20);
+    text += row({0.01 * k, 1.0 * (k / 20), 0.0, (k < 20 ? -3e3 : 3e3) * t * t * 0.5, 0.0,
+                 k < 20 ? 0.0 : 7.0});
+  }
+  const std::string path = folder.write("both.csv", text);
+  const auto json =
+      nlohmann::json::parse(run("metrics --json " + path).output)["joins"][0]["metrics"];
+  const double bend = 4.0 + 1.0 / 6.0;  // of seam/metrics.hpp's formula for n = 3: c = 3
+  EXPECT_NEAR(json["acceleration_jump_rad_s2"].get<double>(), bend * 1e-4 * 6e3, 1e-3);
+  EXPECT_NEAR(json["acceleration_jump_error_rad_s2"].get<double>(), bend * 1e-4 * 6e3, 1e-3);
+  EXPECT_NEAR(json["acceleration_jump_m_s2"].get<double>(), 7.0, 1e-9);
+  EXPECT_NEAR(json["acceleration_jump_error_m_s2"].get<double>(), 0.0, 1e-9);
 }
 
 // A recording tells from its file what it told the bench; but the acceleration's jumps are estimated.
@@ -149,7 +174,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"EmptyFile", "metrics @empty.csv", "empty.csv"},
         BadCall{"NotANumber", "metrics @nan.csv", "nan.csv:3: column \"torque.a\": \"nan\""},
         BadCall{"JoinBeyondTheEnd", "metrics @full.csv --join 7", "full.csv, 0 to 0.19 s"},
-        BadCall{"JoinThatIsNoTime", "metrics @full.csv --join nan", "--join: nan s"},
+        BadCall{"JoinThatIsNoTime", "metrics @full.csv --join nan",
+                "--join: nan, must be a finite number"},
         BadCall{"HalfThatIsNone", "metrics @full.csv --half @full.csv",
                 "full.csv: a tick of 0.01 s, must be 0.005 s"},
         BadCall{"OtherJoints", "metrics @full.csv --compare @torque.csv",

@@ -2,8 +2,11 @@
 #include <filesystem>
 #include <sstream>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "tests/refusals.hpp"
 
@@ -181,6 +184,40 @@ TEST(Program, ReadsFilesBesideASceneWhereTheirFolderIsAllowed) {
   }
 }
 
+TEST(Program, RunLeavesAloneWhatABenchHasCompared) {
+  const TempFolder folder;
+  const std::string out = " --out " + folder.path("r");
+  ASSERT_EQ(run("bench line --method dmp2,dmp3" + out).status, 0);
+  const std::string summary = test::read_file(folder.path("r/summary.json"));
+  const Outcome outcome = run("run line --method dmp3" + out);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.output,
+            "seam: " + folder.path("r") +
+                ": holds what seam bench has compared, needs another folder (--out)\n");
+  EXPECT_EQ(test::read_file(folder.path("r/summary.json")), summary);
+  const std::string alone = "run line --method dmp3 --out " + folder.path("one");
+  EXPECT_EQ(run(alone).status, 0);
+  EXPECT_EQ(run(alone).status, 0);  // a run takes the place of another
+}
+
+TEST(Program, FillsAFolderAlone) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path("r"));
+  const int other =
+      open(folder.path("r").c_str(), O_RDONLY | O_DIRECTORY);  // as another process has it
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  for (const char* command : {"bench line", "run line --method dmp3", "experiment speed"}) {
+    const Outcome outcome = run(command + (" --out " + folder.path("r")));
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_EQ(outcome.output,
+              "seam: " + folder.path("r") +
+                  ": is being filled by another seam, needs another folder (--out)\n");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path("r")));
+  close(other);
+  EXPECT_EQ(run("run line --method dmp3 --out " + folder.path("r")).status, 0);
+}
+
 class ProgramRefuses : public testing::TestWithParam<BadCall> {};
 
 TEST_P(ProgramRefuses, WithOneLineAndExitCodeTwo) {
@@ -197,7 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoMethod", "run line", "line: has no key \"method\", needs --method"},
         BadCall{"NegativeTick", "bench line --dt -1", "--dt"},
         BadCall{"NoJobs", "bench line --jobs 0", "--jobs"},
-        BadCall{"TickThatIsNotANumber", "bench line --dt nan", "line.yaml:18: key \"dt\": \"nan\""},
+        BadCall{"TickThatIsNotANumber", "bench line --dt nan",
+                "--dt: nan, must be a finite number"},
         BadCall{"SetNothing", "bench line --set dt", "dt: must be key=value"},
         BadCall{"SetUnknown", "run line --method dmp2 --set dz=1", "key \"dz\": not known here"},
         BadCall{"NoBaselines", "bench line --check @", "tolerances.yaml: cannot be read"},

@@ -404,7 +404,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRender{"BadSize", "-o @a.png --size 10x10", "", "--size: \"10x10\", must be"},
         BadRender{"SizeInWords", "-o @a.png --size large", "", "--size: \"large\", must be"},
         BadRender{"TooLate", "-o @a.png --at 99", "", "--at: 99 s, must be in 0 to 3.52 s"},
-        BadRender{"NotANumber", "-o @a.png --at nan", "", "--at: nan s, must be in"},
+        BadRender{"NotANumber", "-o @a.png --at nan", "", "--at: nan, must be a finite number"},
         BadRender{"Backwards", "-o @a.mp4 --from 2 --to 1", "", "--to: 1 s, must be > --from 2 s"},
         BadRender{"StillOfAMovie", "-o @a.mp4 --at 1", "", "--at: is for a still picture"},
         BadRender{"NoSuchRun", "-o @a.png --compare dmp2,dmp7", "",

@@ -2,11 +2,35 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "tests/support.hpp"
 #include <seam/whole_file.hpp>
+
+namespace {
+
+// What was asked of the disk, in its order.
+std::vector<std::string>& asked() {
+  static std::vector<std::string> calls;
+  return calls;
+}
+
+}  // namespace
+
+// In the place of the C library's.
+extern "C" int fsync(int descriptor) {
+  const auto link = "/proc/self/fd/" + std::to_string(descriptor);
+  asked().push_back("sync " + std::filesystem::read_symlink(link).filename().string());
+  return static_cast<int>(syscall(SYS_fsync, descriptor));
+}
+extern "C" int rename(const char* from, const char* to) noexcept {
+  asked().push_back("rename " + std::filesystem::path(to).filename().string());
+  return static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
 
 namespace seam {
 namespace {
@@ -32,6 +56,16 @@ class ShortFiles {
  private:
   rlimit before_{};
 };
+
+TEST(WriteWhole, IsOnTheDiskBeforeItTakesThePlaceOfWhatWasThereAndSoIsThat) {
+  const TempFolder folder;
+  const std::string name = std::filesystem::path(folder.path("")).parent_path().filename().string();
+  asked().clear();
+  write_whole(folder.path("a.txt"), [](std::ostream& file) {
+    for (int row = 0; row < 1000; ++row) file << row << std::endl;
+  });
+  EXPECT_THAT(asked(), testing::ElementsAre("sync a.txt.part", "rename a.txt", "sync " + name));
+}
 
 TEST(WriteWhole, ReplacesWhatALinkLeadsToAndNotTheLink) {
   const TempFolder folder;

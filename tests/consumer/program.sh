@@ -24,9 +24,9 @@ works() { # FILE ARGUMENTS…: leaves FILE
   [[ $file = - || -s $file ]] || complain "seam $*: leaves no $file"
 }
 works results/report.html bench line --check bench/baselines
-works one/line/dmp3.csv run line --method dmp3 --out one
+works results/run/line/dmp3.csv run line --method dmp3
 works line.png render results/line/dmp3 -o line.png --size 320x180
-works page.html report one -o page.html
+works page.html report results/run -o page.html
 works joins.csv sweep line --vary sequence.steps.0.until.before_end=0.1:0.3:2 --method dmp3 -o joins.csv
 works - check assets/pa10/pa10.urdf
 works up.yaml learn assets/demos/ramp_up.csv -o up.yaml

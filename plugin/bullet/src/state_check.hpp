@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -13,8 +12,9 @@ inline bool finite(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
 }
 
 /// Whether two vectors of one size hold the same numbers.
-inline bool same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return std::equal(a.data(), a.data() + a.size(), b.data());
+inline bool same(const Eigen::Ref<const Eigen::VectorXd>& a,
+                 const Eigen::Ref<const Eigen::VectorXd>& b) {
+  return (a.array() == b.array()).all();
 }
 
 }  // namespace seam
