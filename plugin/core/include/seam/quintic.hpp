@@ -1,6 +1,8 @@
 #pragma once
 
-namespace seam {
+#include <seam/export.hpp>
+
+namespace SEAM_API seam {
 
 /// The quintic that leads from 1 to 0 while s goes from 0 to 1, at rest and without acceleration at both ends (minimum jerk;
 /// Flash and Hogan 1985): 1 − (10s³ − 15s⁴ + 6s⁵).
