@@ -17,7 +17,7 @@ exec &> >(tee "$folder.log")
 # inside FOLDER COMMAND: what is mounted for the command goes with it.
 inside() {
   unshare --mount sh -ec 'mount -t proc proc "$0/proc"; mount --rbind /dev "$0/dev"; mount -t sysfs sysfs "$0/sys"
-    cd "$0"; exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 CI="$2" chroot . sh -ec "$1"' \
+    cd "$0"; exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive CI="$2" chroot . sh -ec "$1"' \
     "$1" "$2" "${CI-}" </dev/null
 }
 
@@ -34,7 +34,7 @@ timed() { # WHAT COMMAND…
 
 echo "bare.sh: $suite, commit $(git -C "$checkout" rev-parse --short HEAD)"
 bare "$folder"
-inside "$folder" 'apt-get -q update && apt-get -q -y --no-install-recommends install make git ca-certificates' >"$folder.apt"
+inside "$folder" 'apt-get -q update && apt-get -q -y --no-install-recommends install make git ca-certificates' >"$folder.apt" 2>&1
 git clone -q --no-hardlinks "$checkout" "$folder/root/checkout"
 timed 'make bench' inside "$folder" 'cd /root/checkout && make bench'
 timed 'make test' inside "$folder" 'cd /root/checkout && make test'
@@ -42,7 +42,7 @@ timed 'packing' inside "$folder" 'cd /root/checkout && cmake --preset package &&
 
 bare "$folder.installed"
 cp "$folder"/root/checkout/build/package/packages/*.deb "$folder.installed/tmp"
-timed 'apt install' inside "$folder.installed" 'apt-get -q update && apt-get -q -y install /tmp/*.deb' >>"$folder.apt"
+timed 'apt install' inside "$folder.installed" 'apt-get -q update && apt-get -q -y install /tmp/*.deb' >>"$folder.apt" 2>&1
 timed 'the installed program' inside "$folder.installed" 'mkdir /root/empty && cd /root/empty
   seam bench --check bench/baselines
   seam run line --method dmp3 --out one
