@@ -127,7 +127,10 @@ bool bench(const Options& options) {
   const std::vector<Join> methods = read_methods(options.methods);
   ResultsFolder folder(options.out);
   if (options.alone) require_no_comparison(options.out);
-  const auto comparisons = compare(scenes, methods, options.jobs, show_progress);
+  ProgressLine line;
+  const auto comparisons =
+      compare(scenes, methods, options.jobs,
+              [&](int done, int total, const std::string& what) { line.show(done, total, what); });
   folder.make();
   write_results(comparisons, SEAM_VERSION, options.out);
   for (const Comparison& comparison : comparisons) print(comparison);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "bench/parallel.hpp"
 #include "scenes/play.hpp"
@@ -50,11 +51,10 @@ double simulated(const Play& play) {
   return play.dt * play.recording.ticks() * static_cast<double>(play.scene->places());
 }
 
+// But for the recording and the replay, which others may be measured by.
 Run measured(const Play& full, const Play& half, const Play& dmp2) {
   Run run;
   run.method = full.method;
-  run.recording = full.recording;
-  run.replay = full.replay;
   run.metrics = measure(full.recording, {&half.recording, &dmp2.recording});
   run.real_time_factor = simulated(full) / full.wall;
   return run;
@@ -91,6 +91,11 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
     for (const Join method : methods) {
       const auto full = play_of(scene, method);
       comparison.runs.push_back(measured(*full, *(full + 1), *dmp2));
+    }
+    for (Run& run : comparison.runs) {
+      const auto full = play_of(scene, run.method);
+      run.recording = std::move(full->recording);
+      run.replay = std::move(full->replay);
     }
     comparisons.push_back(std::move(comparison));
   }

@@ -55,7 +55,8 @@ void answer_all(const Options& options) {
   ResultsFolder folder(options.out);
   folder.make();
   for (const Experiment& experiment : experiments) {
-    const auto progress = [&](int done, int total) { show_progress(done, total, experiment.name); };
+    ProgressLine line;
+    const auto progress = [&](int done, int total) { line.show(done, total, experiment.name); };
     const std::vector<Measured> measured = perform(experiment, options.jobs, progress);
     write_experiment(experiment, measured, options.out);
     fmt::print("{}\n\n{}\n\n{}\n{}/{}.png\n\n", experiment.title, answer(experiment, measured),

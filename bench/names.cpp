@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "scenes/own_folders.hpp"
+#include <seam/error.hpp>
 
 namespace seam {
 
@@ -42,7 +43,12 @@ std::vector<std::string> experiment_files(const std::vector<std::string>& experi
 
 std::vector<Join> read_methods(const std::vector<std::string>& names) {
   std::vector<Join> methods;
-  for (const std::string& name : names) methods.push_back(join_from_name(name));
+  for (const std::string& name : names) {
+    const Join method = join_from_name(name);
+    if (std::find(methods.begin(), methods.end(), method) != methods.end())
+      throw Error("method \"" + name + "\"", "given twice");
+    methods.push_back(method);
+  }
   if (names.empty()) methods.assign(all_joins.begin(), all_joins.end());
   return methods;
 }

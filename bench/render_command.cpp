@@ -79,10 +79,11 @@ void draw_movie(const Options& options, const Studio& studio) {
     throw Error("--speed", fmt::format("gives {:g} frames, must be <= {}", frames, most_frames));
   Movie movie(options.out, options.studio.width, options.studio.height, options.fps);
   const int count = static_cast<int>(frames);
+  ProgressLine line;
   for (int i = 0; i < count; ++i) {
     const double time = from + i * options.studio.speed / options.fps;
     movie.add(studio.at(time, static_cast<double>(i) / count));
-    show_progress(i + 1, count, options.out);
+    line.show(i + 1, count, "frames of " + options.out);
   }
   movie.finish();
 }

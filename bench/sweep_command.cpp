@@ -1,15 +1,14 @@
 #include "bench/sweep_command.hpp"
 
-#include <chrono>
 #include <memory>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "bench/names.hpp"
 #include "bench/options.hpp"
+#include "bench/progress.hpp"
 #include "bench/sweep.hpp"
 #include <seam/error.hpp>
 
@@ -43,32 +42,6 @@ SweepPlan read_plan(const Options& options) {
   return plan;
 }
 
-// Shows how far a sweep is, ten times a second at most.
-class Bar {
- public:
-  explicit Bar(std::int64_t done) : before_(done) {}
-
-  void show(std::int64_t done, std::int64_t total) {
-    const auto now = Clock::now();
-    if (!isatty(STDERR_FILENO) || (done < total && now - shown_ < std::chrono::milliseconds(100)))
-      return;
-    shown_ = now;
-    const double rate =
-        static_cast<double>(done - before_) / std::chrono::duration<double>(now - begin_).count();
-    fmt::print(stderr, "\r\033[K");
-    if (done < total)
-      fmt::print(stderr, "{}/{} samples, {:.3g} a second, {:.0f} s left", done, total, rate,
-                 static_cast<double>(total - done) / rate);
-    std::fflush(stderr);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_ = Clock::now();
-  Clock::time_point shown_;
-  std::int64_t before_;
-};
-
 void sweep(const Options& options) {
   const Shard shard = Shard::read(options.shard);
   const Sweep sweep(scene_file(options.scene), options.overrides, options.allowed,
@@ -76,9 +49,9 @@ void sweep(const Options& options) {
   const SweepContents contents = sweep.contents(shard);
   SweepFile file(options.out, contents);
   const std::int64_t before = file.done();
-  Bar bar(before);
+  ProgressLine line(before);
   run_sweep(sweep, shard, options.jobs, file,
-            [&](std::int64_t done, std::int64_t total) { bar.show(done, total); });
+            [&](std::int64_t done, std::int64_t total) { line.show(done, total, "samples"); });
   fmt::print("{}: {} samples, each with {} methods", options.out, contents.size(),
              contents.plan.methods.size());
   if (before > 0) fmt::print("; {} were there already", before);

@@ -231,6 +231,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"UnknownCommand", "dance", "subcommand is required"},
         BadCall{"UnknownScene", "run nowhere --method dmp2", "nowhere.yaml: cannot be read"},
         BadCall{"UnknownMethod", "run line --method dmp9", "must be one of dmp2, dmp2a, dmp3"},
+        BadCall{"MethodTwice", "bench line --method dmp3,dmp3", "method \"dmp3\": given twice"},
         BadCall{"NoMethod", "run line", "line: has no key \"method\", needs --method"},
         BadCall{"NegativeTick", "bench line --dt -1", "--dt"},
         BadCall{"NoJobs", "bench line --jobs 0", "--jobs"},
