@@ -53,6 +53,14 @@ std::string of_joints(const Recording& recording, const std::string& heading) {
                   all ? "[N" : "[N·m or N");
 }
 
+// A figure of a run's or a join's metrics.
+template <typename Metrics>
+struct Figure {
+  const char* name;
+  std::string heading;
+  double Metrics::*of;
+};
+
 // Which accelerations jump, in what they are measured, and whether they were recorded.
 struct Jumps {
   explicit Jumps(const Recording& recording) {
@@ -64,11 +72,29 @@ struct Jumps {
     for (const RecordedJoin& join : recording.joins)
       estimated |= std::isnan(join.acceleration_jump) && std::isnan(join.linear_jump);
   }
-  std::string heading(const char* unit) const {
-    return std::string("acceleration jump") + (estimated ? ", estimated" : "") + unit;
+
+  // None if none is measured so; with their error if they are estimated.
+  template <typename Metrics>
+  std::vector<Figure<Metrics>> in_metres() const {
+    return figures<Metrics>(
+        linear, " [m/s²]", {"acceleration_jump_m_s2", "", &Metrics::acceleration_jump_m_s2},
+        {"acceleration_jump_error_m_s2", "", &Metrics::acceleration_jump_error_m_s2});
   }
-  std::string error_heading(const char* unit) const {
-    return std::string("estimate off by about") + unit;
+  template <typename Metrics>
+  std::vector<Figure<Metrics>> in_radians() const {
+    return figures<Metrics>(
+        angular, " [rad/s²]", {"acceleration_jump_rad_s2", "", &Metrics::acceleration_jump_rad_s2},
+        {"acceleration_jump_error_rad_s2", "", &Metrics::acceleration_jump_error_rad_s2});
+  }
+
+ private:
+  template <typename Metrics>
+  std::vector<Figure<Metrics>> figures(bool there, const std::string& unit, Figure<Metrics> size,
+                                       Figure<Metrics> error) const {
+    if (!there) return {};
+    size.heading = (estimated ? "acceleration jump, estimated" : "acceleration jump") + unit;
+    error.heading = "estimate off by about" + unit;
+    return estimated ? std::vector{size, error} : std::vector{size};
   }
 
   bool linear = false, angular = false, estimated = false;
@@ -85,22 +111,17 @@ std::vector<Column> columns(const Recording& recording) {
     column.heading = of_joints(recording, column.heading);
     if (there) list.push_back(std::move(column));
   };
-  const auto add_jump = [&](bool there, const char* unit, Metric size, const char* name,
-                            Metric error, const char* error_name) {
-    if (!there) return;
-    list.push_back(metric(name, jumps.heading(unit).c_str(), "{:.2g}", size));
-    if (jumps.estimated)
-      list.push_back(metric(error_name, jumps.error_heading(unit).c_str(), "{:.2g}", error));
+  const auto add_jumps = [&](const std::vector<Figure<M>>& figures) {
+    for (const Figure<M>& figure : figures)
+      list.push_back(metric(figure.name, figure.heading.c_str(), "{:.2g}", figure.of));
   };
   add(true, metric("torque_jump_nm", "torque jump [N·m]", "{:.3g}", &M::torque_jump_nm));
   add(true, metric("torque_jump_percent", "torque jump, of the limit [%]", "{:.2g}",
                    &M::torque_jump_percent));
   add(true,
       metric("torque_jump_order", "torque jump, order in dt", "{:.2f}", &M::torque_jump_order));
-  add_jump(jumps.linear, " [m/s²]", &M::acceleration_jump_m_s2, "acceleration_jump_m_s2",
-           &M::acceleration_jump_error_m_s2, "acceleration_jump_error_m_s2");
-  add_jump(jumps.angular, " [rad/s²]", &M::acceleration_jump_rad_s2, "acceleration_jump_rad_s2",
-           &M::acceleration_jump_error_rad_s2, "acceleration_jump_error_rad_s2");
+  add_jumps(jumps.in_metres<M>());
+  add_jumps(jumps.in_radians<M>());
   add(true, metric("torque_rate_peak_nm_s", "torque rate, peak [N·m/s]", "{:.0f}",
                    &M::torque_rate_peak_nm_s));
   add(true, metric("torque_rate_rms_nm_s", "torque rate, RMS [N·m/s]", "{:.0f}",
@@ -150,16 +171,9 @@ std::vector<JoinColumn> join_columns(const Recording& recording) {
       {"torque_jump_nm", "torque jump [N·m]", "{:.3g}", &J::torque_jump_nm},
       {"torque_jump_percent", "torque jump, of the limit [%]", "{:.2g}", &J::torque_jump_percent},
       {"torque_jump_order", "torque jump, order in dt", "{:.2f}", &J::torque_jump_order}};
-  const auto add_jump = [&](bool there, const char* unit, double J::*size, const char* name,
-                            double J::*error, const char* error_name) {
-    if (!there) return;
-    list.push_back({name, jumps.heading(unit), "{:.2g}", size});
-    if (jumps.estimated) list.push_back({error_name, jumps.error_heading(unit), "{:.2g}", error});
-  };
-  add_jump(jumps.angular, " [rad/s²]", &J::acceleration_jump_rad_s2, "acceleration_jump_rad_s2",
-           &J::acceleration_jump_error_rad_s2, "acceleration_jump_error_rad_s2");
-  add_jump(jumps.linear, " [m/s²]", &J::acceleration_jump_m_s2, "acceleration_jump_m_s2",
-           &J::acceleration_jump_error_m_s2, "acceleration_jump_error_m_s2");
+  for (const auto& figures : {jumps.in_radians<J>(), jumps.in_metres<J>()})
+    for (const Figure<J>& figure : figures)
+      list.push_back({figure.name, figure.heading, "{:.2g}", figure.of});
   list.push_back({"tracking_max_rad", "tracking [rad]", "{:.1e}", &J::tracking_max_rad});
   if (recording.in_task_space()) {
     list.push_back({"tool_tracking_max_m", "tool tracking [m]", "{:.1e}", &J::tool_tracking_max_m});

@@ -53,11 +53,11 @@ void answer_all(const Options& options) {
   }
   require_gnuplot();
   ResultsFolder folder(options.out);
-  folder.make();
   for (const Experiment& experiment : experiments) {
     ProgressLine line;
     const auto progress = [&](int done, int total) { line.show(done, total, experiment.name); };
     const std::vector<Measured> measured = perform(experiment, options.jobs, progress);
+    folder.make();
     write_experiment(experiment, measured, options.out);
     fmt::print("{}\n\n{}\n\n{}\n{}/{}.png\n\n", experiment.title, answer(experiment, measured),
                table(experiment, measured), options.out, experiment.name);

@@ -6,6 +6,7 @@
 
 #include "bench/columns.hpp"
 #include "bench/figure.hpp"
+#include "bench/results_folder.hpp"
 #include "bench/run_json.hpp"
 #include <seam/error.hpp>
 #include <seam/whole_file.hpp>
@@ -64,12 +65,6 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
       {"format", 1}, {"versions", versions_json(seam_version)}, {"scenes", scenes}, {"runs", runs}};
 }
 
-void make_folder(const std::filesystem::path& dir) {
-  std::error_code status;
-  std::filesystem::create_directories(dir, status);
-  if (status) throw Error(dir.string(), "cannot be made: " + status.message());
-}
-
 void remove_file(const std::filesystem::path& path) {
   std::error_code status;
   std::filesystem::remove(path, status);
@@ -81,12 +76,12 @@ void remove_file(const std::filesystem::path& path) {
 void write_results(const std::vector<Comparison>& comparisons, const std::string& seam_version,
                    const std::string& dir) {
   const std::filesystem::path results = dir;
-  make_folder(results);
+  make_folder(results.string());
   for (const char* last : {"summary.json", "report.html"}) remove_file(results / last);
   std::string tables;
   for (const Comparison& comparison : comparisons) {
     const std::filesystem::path folder = results / comparison.scene.name;
-    make_folder(folder);
+    make_folder(folder.string());
     for (const Run& run : comparison.runs) {
       const std::string beside = (folder / to_string(run.method)).string();
       run.recording.write(beside + ".csv");

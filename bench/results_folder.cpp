@@ -19,15 +19,19 @@ bool take_alone(const Descriptor& descriptor) {
   return flock(descriptor.number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
+void make_folder(const std::string& path) {
+  std::error_code status;
+  std::filesystem::create_directories(path, status);
+  if (status) throw Error(path, "cannot be made: " + status.message());
+}
+
 ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
   if (path.empty()) throw Error("--out", "is empty, must be a folder");
   take();
 }
 
 void ResultsFolder::make() {
-  std::error_code status;
-  std::filesystem::create_directories(path_, status);
-  if (status) throw Error(path_, "cannot be made: " + status.message());
+  make_folder(path_);
   take();
 }
 

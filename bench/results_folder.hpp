@@ -18,6 +18,10 @@ struct Descriptor {
 /// @return  false where another has it; a file system that knows no locks never says so
 bool take_alone(const Descriptor& descriptor);
 
+/// Makes a folder, and those that it is in, unless it is there.
+/// @throws Error  cannot be made
+void make_folder(const std::string& path);
+
 /// A folder that one process fills with results: taken while this lives, from the beginning if it is there then.
 class ResultsFolder {
  public:

@@ -37,6 +37,15 @@ struct Kitchen : TempFolder {
     wipe.write(path("wipe.csv"));
     turn.write(path("turn.csv"));
   }
+
+  // A sequence of one step.
+  std::string reaching(const std::string& step) const {
+    return write("task.yaml",
+                 "format: seam-sequence 1\n"
+                 "primitives: {reach: {demonstration: reach.csv}}\n"
+                 "steps: [" +
+                     step + "]\n");
+  }
 };
 
 TEST(LearnCommand, WritesWhatTheLibraryLearnsAndSummarisesTheFit) {
@@ -180,10 +189,7 @@ TEST(RolloutCommand, RecordsWhatTheSequencerPlays) {
 
 TEST(RolloutCommand, NeedsADurationWhereNothingEndsTheSequence) {
   const Kitchen kitchen;
-  const std::string path = kitchen.write("task.yaml",
-                                         "format: seam-sequence 1\n"
-                                         "primitives: {reach: {demonstration: reach.csv}}\n"
-                                         "steps: [{play: reach, until: on_call}]\n");
+  const std::string path = kitchen.reaching("{play: reach, until: on_call}");
   const std::string call =
       "rollout " + path + " --method dmp3 --dt 0.01 -o " + kitchen.path("out.csv");
   const Outcome endless = run(call);
@@ -196,10 +202,7 @@ TEST(RolloutCommand, NeedsADurationWhereNothingEndsTheSequence) {
 
 TEST(RolloutCommand, RefusesMoreRowsThanMemoryHolds) {
   const Kitchen kitchen;
-  const std::string path = kitchen.write("task.yaml",
-                                         "format: seam-sequence 1\n"
-                                         "primitives: {reach: {demonstration: reach.csv}}\n"
-                                         "steps: [{play: reach}]\n");
+  const std::string path = kitchen.reaching("{play: reach}");
   const std::string call = "rollout " + path + " --method dmp3 -o " + kitchen.path("out.csv");
   for (const char* options : {" --dt 1e-6 --duration 36000", " --dt 1e-5 --settle 3600"}) {
     const Outcome outcome = run(call + options);

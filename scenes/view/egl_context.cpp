@@ -76,9 +76,10 @@ EglContext::EglContext(const std::string& device) {
   if (device != "auto" && device != "gpu" && device != "software")
     throw Error("device \"" + device + "\"", "must be auto, gpu or software");
   setenv("EGL_LOG_LEVEL", "fatal", 0);
+  const std::vector<EglDevice> devices = egl_devices();
   for (const bool software : {false, true}) {
     if (device == (software ? "gpu" : "software")) continue;
-    for (const EglDevice& each : egl_devices())
+    for (const EglDevice& each : devices)
       if (each.software == software && open(each)) return;
   }
   refuse(device);

@@ -14,11 +14,6 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-std::string attribute(const XMLElement& element, const char* name) {
-  const char* value = element.Attribute(name);
-  return value ? value : "";
-}
-
 template <typename Visit>
 void for_each(XMLElement& parent, const char* name, Visit visit) {
   for (XMLElement* child = parent.FirstChildElement(name); child;) {
@@ -57,7 +52,7 @@ class Mender {
 
  private:
   UrdfPlace place(const XMLElement& element) const {
-    return {path_, std::string(element.Name()) + " \"" + attribute(element, "name") + "\"",
+    return {path_, std::string(element.Name()) + " \"" + attribute(&element, "name") + "\"",
             document_.warnings};
   }
 
@@ -86,7 +81,7 @@ class Mender {
   void mend_material(XMLElement& material) {
     const UrdfPlace here = place(material);
     mend_vectors(material, here);
-    if (!materials_.insert(attribute(material, "name")).second) {
+    if (!materials_.insert(attribute(&material, "name")).second) {
       here.warn("is given twice: the first one counts");
     } else if (!material.Attribute("name")) {
       here.warn("has no name: left out");
@@ -102,7 +97,7 @@ class Mender {
     const UrdfPlace here = place(link);
     mend_vectors(link, here);
     for_each(link, "inertial", [&](XMLElement& inertial) { mend_inertial(inertial, here); });
-    const std::string name = attribute(link, "name");
+    const std::string name = attribute(&link, "name");
     for (const char* kind : {"visual", "collision"}) {
       auto& capsules =
           kind == std::string("visual") ? document_.capsule_visuals : document_.capsule_collisions;
@@ -153,13 +148,13 @@ class Mender {
   void mend_joint(XMLElement& joint) {
     const UrdfPlace here = place(joint);
     mend_vectors(joint, here);
-    const std::string type = attribute(joint, "type");
+    const std::string type = attribute(&joint, "type");
     if (is_one_of(type, {"spherical", "floating", "planar"})) {
       here.warn("is " + type + ", seam's joints have one degree of freedom: held where it is");
       joint.SetAttribute("type", "fixed");
     }
     std::vector<const char*> unread = {"safety_controller", "calibration"};
-    if (attribute(joint, "type") == "fixed") {
+    if (attribute(&joint, "type") == "fixed") {
       unread.insert(unread.end(), {"axis", "limit", "dynamics", "mimic"});
     } else {
       mend_limits(joint, here);
@@ -172,7 +167,7 @@ class Mender {
 
   static void mend_limits(XMLElement& joint, const UrdfPlace& here) {
     XMLElement* limit = joint.FirstChildElement("limit");
-    if (!limit && attribute(joint, "type") == "continuous") return;
+    if (!limit && attribute(&joint, "type") == "continuous") return;
     if (!limit) {
       here.warn("has no <limit>: moves without limits");
       limit = &add(joint, "limit");
@@ -197,7 +192,7 @@ class Mender {
 
   static void mend_vector(XMLElement& element, const char* name, std::size_t count,
                           const UrdfPlace& here) {
-    const std::string value = attribute(element, name);
+    const std::string value = attribute(&element, name);
     std::istringstream in(value);
     std::vector<std::string> numbers{std::istream_iterator<std::string>(in), {}};
     std::string done;
@@ -228,6 +223,11 @@ class Mender {
 };
 
 }  // namespace
+
+std::string attribute(const tinyxml2::XMLElement* element, const char* name) {
+  const char* value = element ? element->Attribute(name) : nullptr;
+  return value ? value : "";
+}
 
 void mend_urdf(tinyxml2::XMLElement& robot, const std::string& path, UrdfDocument& document) {
   Mender(robot, path, document).mend();

@@ -65,11 +65,6 @@ struct JointElement {
   std::string name, parent, child;
 };
 
-std::string attribute(const tinyxml2::XMLElement* element, const char* name) {
-  const char* value = element ? element->Attribute(name) : nullptr;
-  return value ? value : "";
-}
-
 bool is_xacro(const tinyxml2::XMLElement& element) {
   return std::string(element.Name()).rfind("xacro:", 0) == 0;
 }

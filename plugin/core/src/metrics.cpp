@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "shown.hpp"
 #include <seam/error.hpp>
@@ -76,10 +77,6 @@ double peak_after(const Recording& recording, const RecordedJoin& join, double d
   return signal.size() == 0 || first >= end ? unknown : peak(signal.middleRows(first, end - first));
 }
 
-double largest_jump(const Recording& recording, const Eigen::MatrixXd& signal, double at, int n) {
-  return peak(jump(recording.time, signal, at, n));
-}
-
 bool limits_known(const Recording& recording) {
   return recording.effort.size() == recording.torque.cols() &&
          !recording.effort.array().isNaN().any();
@@ -101,43 +98,44 @@ Eigen::MatrixXd every_other(const Eigen::VectorXd& time, const Eigen::MatrixXd& 
   return signal(Eigen::seqN(first, rows, 2), Eigen::all);
 }
 
-// Of a signal's step, estimated.
-double error_of_jump(const Recording& recording, const Eigen::MatrixXd& signal, double at, int n) {
-  if (signal.size() == 0) return unknown;
+// A signal's step, and about what that is off by.
+struct Estimate {
+  double size = unknown, error = unknown;
+};
+
+Estimate estimated_jump(const Recording& recording, const Eigen::MatrixXd& signal, double at,
+                        int n) {
+  if (signal.size() == 0) return {};
   const Eigen::VectorXd fine = jump(recording.time, signal, at, n);
   const Eigen::VectorXd coarse = jump(every_other(recording.time, recording.time, at),
                                       every_other(recording.time, signal, at), at, n);
-  return peak((coarse - fine) / 3.0);
+  return {peak(fine), peak((coarse - fine) / 3.0)};
 }
 
-// The columns of joints that slide, or of those that turn.
-Eigen::MatrixXd of_joints(const Recording& recording, const Eigen::MatrixXd& signal, bool sliding) {
-  Eigen::MatrixXd columns(signal.rows(), 0);
-  for (Eigen::Index c = 0; c < signal.cols(); ++c) {
-    if (recording.slides_at(static_cast<std::size_t>(c)) != sliding) continue;
-    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-    columns.rightCols<1>() = signal.col(c);
-  }
-  return columns;
+// Of the tool's coordinates or, without a tool, of the joints: those in m/s², or those in rad/s².
+Eigen::MatrixXd accelerations(const Recording& recording, bool linear) {
+  const bool tool = recording.in_task_space() && recording.tool_acc.cols() >= 3;
+  const Eigen::MatrixXd& all = tool ? recording.tool_acc : recording.ref_acc;
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index c = 0; c < all.cols(); ++c)
+    if ((tool ? c < 3 : recording.slides_at(static_cast<std::size_t>(c))) == linear)
+      columns.push_back(c);
+  return all(Eigen::all, columns);
 }
 
 // As recorded, else estimated.
 void measure_acceleration_jump(const Recording& recording, const RecordedJoin& join, int line_ticks,
                                JoinMetrics& metrics) {
-  const bool tool = recording.in_task_space() && recording.tool_acc.cols() >= 3;
-  const auto measure = [&](double recorded, const Eigen::MatrixXd& signal, double& jump,
-                           double& error) {
-    jump = std::isnan(recorded) ? largest_jump(recording, signal, join.time, line_ticks) : recorded;
-    error = std::isnan(recorded) ? error_of_jump(recording, signal, join.time, line_ticks) : 0.0;
+  const auto found = [&](double recorded, bool linear) {
+    if (!std::isnan(recorded)) return Estimate{recorded, 0.0};
+    return estimated_jump(recording, accelerations(recording, linear), join.time, line_ticks);
   };
-  measure(join.acceleration_jump,
-          tool ? Eigen::MatrixXd(recording.tool_acc.rightCols(recording.tool_acc.cols() - 3))
-               : of_joints(recording, recording.ref_acc, false),
-          metrics.acceleration_jump_rad_s2, metrics.acceleration_jump_error_rad_s2);
-  measure(join.linear_jump,
-          tool ? Eigen::MatrixXd(recording.tool_acc.leftCols<3>())
-               : of_joints(recording, recording.ref_acc, true),
-          metrics.acceleration_jump_m_s2, metrics.acceleration_jump_error_m_s2);
+  const Estimate angular = found(join.acceleration_jump, false);
+  const Estimate linear = found(join.linear_jump, true);
+  metrics.acceleration_jump_rad_s2 = angular.size;
+  metrics.acceleration_jump_error_rad_s2 = angular.error;
+  metrics.acceleration_jump_m_s2 = linear.size;
+  metrics.acceleration_jump_error_m_s2 = linear.error;
 }
 
 std::vector<JoinMetrics> measure_joins(const Recording& recording, const MetricSettings& settings) {
