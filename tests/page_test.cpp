@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 using test::Browser;
 
-/// A page of two scenes and two methods, which ctest has made (Page.ResultsAreThere), opened in Chromium.
+/// A page of two scenes and two methods, which ctest has made (Results.OfABenchAreThere), opened in Chromium.
 class Page : public testing::Test {
  protected:
   void SetUp() override {
@@ -151,7 +151,7 @@ TEST_F(Page, FitsAPhoneInTheDark) {
             "rgb(255, 255, 255)");
 }
 
-/// A folder of results of one scene and one method, a copy of what ctest has made (Report.ResultsAreThere).
+/// A folder of results of one scene and one method, a copy of what ctest has made (Results.OfARunAreThere).
 class Report : public testing::Test {
  protected:
   void SetUp() override {
