@@ -1,5 +1,5 @@
 # A thin front over apt and the CMake presets: each line can be typed by hand instead. `make help` lists the targets.
-packages := g++ ccache cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-dev libbullet-extras-dev liburdfdom-dev libconsole-bridge-dev \
+packages := g++ ccache mold cmake ninja-build pkg-config xz-utils libeigen3-dev libbullet-dev libbullet-extras-dev liburdfdom-dev libconsole-bridge-dev \
   libtinyxml2-dev libassimp-dev zlib1g-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libegl1 libgl1-mesa-dri libopengl0 libegl-dev \
   libepoxy-dev libfreetype-dev libpng-dev fonts-dejavu-core ffmpeg libgtest-dev libgmock-dev libbenchmark-dev liborocos-kdl-dev help2man $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
 tools := clang-format clang-tidy

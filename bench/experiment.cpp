@@ -12,7 +12,6 @@
 #include "bench/compare.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/markdown.hpp"
-#include "bench/results_folder.hpp"
 #include "plugin/files/src/yaml_reader.hpp"
 #include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
@@ -222,7 +221,6 @@ void write_experiment(const Experiment& experiment, const std::vector<Measured>&
                       const std::string& dir) {
   const std::string text = answer(experiment, measured);
   const std::filesystem::path folder = dir;
-  make_folder(dir);
   all_figures(experiment, measured).write((folder / (experiment.name + ".csv")).string());
   draw(dir, experiment.name, script(experiment));
   write_whole((folder / (experiment.name + ".md")).string(),

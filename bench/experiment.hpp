@@ -58,7 +58,7 @@ std::string answer(const Experiment& experiment, const std::vector<Measured>& me
 /// A Markdown table, a row per value.
 std::string table(const Experiment& experiment, const std::vector<Measured>& measured);
 
-/// Writes DIR/NAME.csv, NAME.md (picture, text, table) and the picture NAME.png.
+/// Writes NAME.csv, NAME.md (picture, text, table) and the picture NAME.png into a folder that is there.
 /// @throws Error  cannot be written, or gnuplot fails
 void write_experiment(const Experiment& experiment, const std::vector<Measured>& measured,
                       const std::string& dir);
