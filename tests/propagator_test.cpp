@@ -1,4 +1,7 @@
+#include <random>
+
 #include <gtest/gtest.h>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include <seam/propagator.hpp>
 
@@ -58,6 +61,41 @@ TEST(Propagator, MatchesTheClosedFormOfAnUndampedSpringOfAnyTimeAndStiffness) {
         EXPECT_NEAR(e(0), 0.7 * std::cos(w * dt), 1e-10) << K << ", " << tau << ", " << steps;
         EXPECT_NEAR(e(1), -0.7 * w * std::sin(w * dt), 1e-10 * w) << K << ", " << tau;
       }
+}
+
+// Van Loan's: the exponential of the system together with its forcing and the forcing's derivatives. Entries that hold
+// velocities are compared in units of √K/τ.
+TEST(Propagator, MatchesTheExponentialOfTheWholeSystem) {
+  std::mt19937 random(1);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int i = 0; i < 500; ++i) {
+    const double K = std::pow(10.0, between(-1.0, 3.0));
+    const Gains gains{K, std::sqrt(K) * between(0.0, 4.0), std::sqrt(K) * between(0.1, 3.0)};
+    const double tau = std::pow(10.0, between(-1.0, 1.0));
+    const double dt = tau * std::pow(10.0, between(-4.0, 0.0));
+    const double lambda = gains.H / tau;
+    Eigen::Matrix<double, 7, 7> generator = Eigen::Matrix<double, 7, 7>::Zero();
+    generator(0, 1) = 1.0;
+    generator.row(1) << -K / (tau * tau), -gains.D / tau, 1.0 / (tau * tau), 0.0, 1.0 / (tau * tau),
+        0.0, 0.0;
+    generator.row(3) << 0.0, 0.0, -lambda * lambda, -2.0 * lambda, 0.0, 0.0, 0.0;
+    generator(2, 3) = generator(4, 5) = generator(5, 6) = 1.0;
+    const Eigen::Matrix<double, 7, 7> flow = (generator * dt).exp();
+    const Eigen::Vector3d rates(0.3, -1.2 / dt, 2.0 / (dt * dt));  // f and its derivatives
+    const auto f = [&](double t) { return rates(0) + rates(1) * t + 0.5 * rates(2) * t * t; };
+    const Propagator step(gains, tau, dt);
+    const Eigen::Vector2d driven = step.Gamma * Eigen::Vector3d(f(0.0), f(0.5 * dt), f(dt));
+    const Eigen::Vector2d expected = flow.topRightCorner<2, 3>() * rates;
+    const double unit = std::sqrt(K) / tau;
+    EXPECT_NEAR(driven(0), expected(0), 1e-12 / std::min(K, 1.0)) << K << ", " << dt / tau;
+    EXPECT_NEAR(driven(1), expected(1), 1e-12 * unit / std::min(K, 1.0)) << K << ", " << dt / tau;
+    const Eigen::Vector4d units(1.0, unit, 1.0, lambda);
+    const Eigen::Matrix4d off =
+        units.asDiagonal().inverse() * (step.Phi - flow.topLeftCorner<4, 4>()) * units.asDiagonal();
+    EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-11) << K << ", " << gains.D << ", " << dt / tau;
+  }
 }
 
 TEST(Propagator, TwoHalfStepsMakeAWhole) {

@@ -13,8 +13,9 @@ namespace SEAM_API seam {
 /// exact for a forcing f that is a quadratic over the step. e dies out critically damped; with ė = −λe it is
 /// e₀·exp(−λt), the K(r − g) of Eq. 5. With s = (y − g, ẏ, e, ė) and f₀, f_m, f₁ at the start, middle and end:
 ///     s(dt) = Φ·s(0) + Γ·(f₀, f_m, f₁)ᵀ
-/// Φ and Γ come from one matrix exponential (Van Loan), so no dt is unstable and the error of a
-/// whole motion is of order dt⁴, from the quadratic alone.
+/// Φ and Γ are those of the exponential of the system together with its forcing (Van Loan), from Taylor's series over a part
+/// of the step that is doubled until it is whole: no dt is unstable, and the error of a whole motion is of order dt⁴,
+/// from the quadratic alone.
 struct Propagator {
   Eigen::Matrix4d Phi = Eigen::Matrix4d::Identity();                        // of s
   Eigen::Matrix<double, 2, 3> Gamma = Eigen::Matrix<double, 2, 3>::Zero();  // of y − g and ẏ
