@@ -145,7 +145,7 @@ void add_step_benchmarks() {
   for (const Join join : all_joins)
     add_pair("sequencer step, " + std::string(to_string(join)) + " / bare loop", 1.2, 2000,
              [join] { return play(join, false); });
-  add_pair("sequencer step while the rate moves / bare loop", no_bar, 500,
+  add_pair("sequencer step while the rate moves / bare loop", 3.0, 500,
            [] { return play(Join::dmp3, true); });
 }
 
