@@ -3,7 +3,7 @@ packages := g++ ccache mold cmake ninja-build pkg-config xz-utils libeigen3-dev 
   libtinyxml2-dev libassimp-dev zlib1g-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libegl1 libgl1-mesa-dri libopengl0 libegl-dev \
   libepoxy-dev libfreetype-dev libpng-dev fonts-dejavu-core ffmpeg libgtest-dev libgmock-dev libbenchmark-dev liborocos-kdl-dev help2man $(if $(wildcard /usr/bin/gnuplot),,gnuplot-nox)
 tools := clang-format clang-tidy
-testing := chromium doxygen dpkg-dev file
+testing := chromium doxygen dpkg-dev file libmujoco-dev
 documenting := doxygen
 fuzzing := clang libclang-rt-dev
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')

@@ -6,7 +6,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
-#include "plugin/bullet/src/settings_check.hpp"
+#include "plugin/arm/src/settings_check.hpp"
 
 namespace seam {
 

@@ -8,7 +8,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
-#include "plugin/bullet/src/bullet_types.hpp"
+#include "plugin/arm/src/bullet_types.hpp"
 #include "plugin/bullet/src/shapes.hpp"
 #include <seam/error.hpp>
 

@@ -22,14 +22,17 @@ set(folders core/include/)
 if("files" IN_LIST SEAM_COMPONENTS)
   list(APPEND folders files/include/)
 endif()
-if(SEAM_COMPONENTS MATCHES "bullet")
-  list(APPEND folders bullet/include/)
-endif()
+foreach(folder arm bullet)
+  if(SEAM_COMPONENTS MATCHES ${folder})
+    list(APPEND folders ${folder}/include/)
+  endif()
+endforeach()
 install(DIRECTORY ${folders} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
 if(NOT BUILD_SHARED_LIBS)
   set(seam_static_files "yaml-cpp")
-  set(seam_static_bullet "urdfdom;console_bridge;assimp;tinyxml2")
+  set(seam_static_arm "BulletInverseDynamics;urdfdom;console_bridge;tinyxml2")
+  set(seam_static_bullet "assimp")
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libseam${PROJECT_VERSION_MAJOR}
   RENAME copyright COMPONENT runtime)
@@ -43,26 +46,37 @@ write_basic_package_version_file(seam-config-version.cmake COMPATIBILITY SameMin
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/seam-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/seam-config-version.cmake
   cmake/FindBulletInverseDynamics.cmake DESTINATION ${cmake_folder} COMPONENT development)
 
-# seam_pc(NAME DESCRIPTION REQUIRES REQUIRES_STATIC CFLAGS): NAME.pc for pkg-config.
-function(seam_pc component description requires requires_static cflags)
+# seam_pc(NAME DESCRIPTION REQUIRES REQUIRES_STATIC LIBS_STATIC CFLAGS): NAME.pc for pkg-config.
+function(seam_pc component description requires requires_static libs_static cflags)
   if(NOT component IN_LIST SEAM_COMPONENTS)
     return()
   endif()
   if(BUILD_SHARED_LIBS)
     set(requires_static "")
+    set(libs_static "")
   endif()
   file(RELATIVE_PATH to_prefix /${pc_folder} /)
   string(REGEX REPLACE "/$" "" to_prefix "${to_prefix}")
   configure_file(cmake/seam.pc.in seam-${component}.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/seam-${component}.pc DESTINATION ${pc_folder} COMPONENT development)
 endfunction()
-set(arm "urdfdom console_bridge assimp tinyxml2")
-seam_pc(core "Movement primitives, learned, joined and played" "eigen3" "" "")
-seam_pc(files "Movement primitives and sequences as YAML files" "seam-core = ${PROJECT_VERSION}" "yaml-cpp" "")
-seam_pc(bullet "Movement primitives on an arm in Bullet (double precision)"
-  "seam-core = ${PROJECT_VERSION} bullet-float64" "${arm}" "-DSEAM_BULLET_FLOAT64")
-seam_pc(bullet-float32 "Movement primitives on an arm in Bullet (single precision)"
-  "seam-core = ${PROJECT_VERSION} bullet" "${arm}" "-DSEAM_BULLET_FLOAT32")
+seam_pc(core "Movement primitives, learned, joined and played" "eigen3" "" "" "")
+seam_pc(files "Movement primitives and sequences as YAML files" "seam-core = ${PROJECT_VERSION}" "yaml-cpp" "" "")
+foreach(precision double single)
+  set(end "")
+  set(suffix "-float64")
+  set(flag "-DSEAM_BULLET_FLOAT64")
+  if(precision STREQUAL "single")
+    set(end "-float32")
+    set(suffix "")
+    set(flag "-DSEAM_BULLET_FLOAT32")
+  endif()
+  seam_pc(arm${end} "Movement primitives on an arm: its model and control (${precision} precision)"
+    "seam-core = ${PROJECT_VERSION}" "urdfdom console_bridge tinyxml2"
+    "-lBulletInverseDynamics${suffix} -lBullet3Common${suffix} -lLinearMath${suffix}" "${flag}")
+  seam_pc(bullet${end} "Movement primitives on an arm in Bullet (${precision} precision)"
+    "seam-arm${end} = ${PROJECT_VERSION} bullet${suffix}" "assimp" "" "")
+endforeach()
 
 if(PROJECT_IS_TOP_LEVEL)
   include(package)

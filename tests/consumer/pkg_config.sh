@@ -13,6 +13,11 @@ for precision in bullet bullet-float32; do
   "./$precision" "$seam/assets/pa10/pa10.urdf"
   "./$precision" "$seam/tests/data/lift_arm.urdf"
 done
+for arm in arm arm-float32; do
+  g++ -std=c++17 "$seam/plugin/examples/08_without_a_world.cpp" -o "$arm" $(pkg-config --cflags --libs "seam-$arm")
+done
+./arm "$seam/assets/pa10/pa10.urdf"
+bash "$seam/tests/consumer/no_world.sh" ./arm ./arm-float32
 g++ -std=c++17 "$seam/tests/consumer/core/core.cpp" -o core $(pkg-config --cflags --libs seam-core)
 ./core
 g++ -std=c++17 "$seam/plugin/examples/03_own_demonstration.cpp" -o files $(pkg-config --cflags --libs seam-files)

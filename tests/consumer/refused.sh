@@ -40,6 +40,8 @@ refused double_with_float 'links seam in one precision and Bullet in the other' 
 refused float_with_double 'links seam in one precision and Bullet in the other' project float_with_double
 refused float_by_target "$float_refused" project float_by_target
 refused double_by_target "$double_refused" project double_by_target
+refused arm_double_with_float 'links seam in one precision and Bullet in the other' project arm_double_with_float
+refused arm_and_bullet BULLET_PRECISION project arm_and_bullet
 refused float_by_library 'TLS reference in .* mismatches non-TLS reference in [^ ]*libmine\.so' project float_by_library
 
 # By pkg-config and by hand, wherever the library stands.
@@ -48,14 +50,14 @@ for precision in bullet bullet-float32; do
 done
 double=$folder/bullet.o float=$folder/bullet-float32.o
 link() { g++ -o "$folder/mixed" "$@"; }
-refused float_as_double 'undefined reference to .seam::this_needs_seam_bullet_float32' link "$float" -L"$libraries" -lseam-bullet -lseam-core
+refused float_as_double 'undefined reference to .seam::this_needs_seam_arm_float32' link "$float" -L"$libraries" -lseam-bullet -lseam-arm -lseam-core
 refused after "$float_refused" link "$double" $(pkg-config --libs seam-bullet bullet)
 refused before "$float_refused" link "$double" $(pkg-config --libs bullet seam-bullet)
 refused double_after "$double_refused" link "$float" $(pkg-config --libs seam-bullet-float32 bullet-float64)
 refused double_before "$double_refused" link "$float" $(pkg-config --libs bullet-float64 seam-bullet-float32)
 for library in LinearMath BulletCollision BulletDynamics; do
-  refused "$library" "$float_refused" link "$double" -L"$libraries" -lseam-bullet -lseam-core "-l$library"
-  refused "$library-float64" "$double_refused" link "$float" "-l$library-float64" -L"$libraries" -lseam-bullet-float32 -lseam-core
+  refused "$library" "$float_refused" link "$double" -L"$libraries" -lseam-bullet -lseam-arm -lseam-core "-l$library"
+  refused "$library-float64" "$double_refused" link "$float" "-l$library-float64" -L"$libraries" -lseam-bullet-float32 -lseam-arm-float32 -lseam-core
 done
 for precision in bullet bullet-float32; do
   link "$folder/$precision.o" $(pkg-config --libs "seam-$precision") || failed=1

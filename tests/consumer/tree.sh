@@ -28,6 +28,9 @@ for folder in "$@"; do
   [ -z "$named" ] || complain "names $folder: $named"
 done
 readelf -d "$libraries/libseam-core.so" | grep -qi bullet && complain "libseam-core needs Bullet"
+for library in "$libraries"/libseam-arm*.so; do
+  readelf -d "$library" | grep -q 'NEEDED.*\(BulletDynamics\|BulletCollision\|assimp\)' && complain "$library needs a world or meshes"
+done
 for library in "$libraries"/libseam-*.so; do
   readelf -d "$library" | grep -q "soname: \[$(basename "$library").0\]" || complain "$library: its soname is not .so.0"
   shown=$(nm -DC --defined-only "$library" | grep ' T ' | grep -v ' T \(seam::\|_init\|_fini\)' || true)

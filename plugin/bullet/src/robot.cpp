@@ -6,8 +6,6 @@
 
 #include "bullet_types.hpp"
 #include "multibody.hpp"
-#include "one_precision.hpp"
-#include "require_inertia.hpp"
 #include "shapes.hpp"
 #include "text.hpp"
 #include "world_watch.hpp"
@@ -23,7 +21,7 @@ constexpr int base_dof =
 
 // Bullet takes an inertia below its precision's for none, and does not move the joint.
 void warn_of_small_inertia(RobotModel& model) {
-  const Eigen::VectorXd moved = moved_inertia(model);
+  const Eigen::VectorXd moved = model.moved_inertia();
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const double inertia = moved(static_cast<Eigen::Index>(i));
     if (inertia >= SIMD_EPSILON) continue;

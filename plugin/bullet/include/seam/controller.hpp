@@ -7,42 +7,29 @@
 
 #include <Eigen/Core>
 
-#include <seam/actuator.hpp>
 #include <seam/alignment.hpp>
-#include <seam/computed_torque.hpp>
+#include <seam/arm_controller.hpp>
 #include <seam/export.hpp>
-#include <seam/fading_offset.hpp>
-#include <seam/guard.hpp>
-#include <seam/joint_reference.hpp>
 #include <seam/robot.hpp>
-#include <seam/sensor.hpp>
-#include <seam/sequencer.hpp>
 
 namespace SEAM_API seam {
 
 class Plugin;
 
 /// What a controller takes its sequence, its robot and its hardware for.
-struct ControllerSettings {
-  ControlSettings law;  // feedback and reference
-  std::optional<ToolSettings>
-      tool;  // the sequence's coordinates are this tool's, else they are joints
+struct ControllerSettings : ArmControllerSettings {
   /// What the controller takes the robot for: a model that errs, or one without the passive joints that the robot in
   /// Bullet has behind all others. Else the robot's own.
   std::optional<RobotModel> model;
-  ActuatorSettings actuator;  // between the command and the joints
-  SensorSettings sensor;      // between the joints and the controller
-  GuardSettings guard;        // of the arm
 
   ControllerSettings() = default;
   /// With an ideal actuator and sensor.
   ControllerSettings(const ControlSettings& control, std::optional<ToolSettings> of = std::nullopt,
                      std::optional<RobotModel> known = std::nullopt)
-      : law(control), tool(std::move(of)), model(std::move(known)) {}
+      : ArmControllerSettings(control, std::move(of)), model(std::move(known)) {}
 };
 
-/// Plays a sequence of primitives on a robot in Bullet, in joint space (coordinates are joint names; joints that are not
-/// named hold the position they have now) or in task space (see TaskSpace).
+/// An ArmController for a robot in Bullet: takes the state from it, and adds the torque to its joints.
 ///
 /// Once per Bullet tick, before the forces are used, `pre_tick(dt)` reads the state, advances the
 /// sequence by dt, and adds the computed torque to the joints. `Plugin` makes those calls; an app
@@ -50,37 +37,13 @@ struct ControllerSettings {
 /// leaves torques alone that the app adds. To tell substeps apart it adds a torque of 0.12 N·m to the
 /// fixed base, which moves nothing; an app that adds base torques from inside the tick would be in
 /// its way. One controller at a time for a robot, which is borrowed and must outlive it.
-///
-/// Where the arm cannot follow, the joints come to rest within about half a second, and stay there: from the reference, as
-/// smoothly as at a join, or, where a joint was too far from it (a hit, drives that are too weak), from where they are. While
-/// there is no state, the torque is that of the reference alone; once there is one again, what the joints are off by fades within a
-/// second. A controller that has stopped holds the joints where they
-/// came to rest, gives way again where they are pushed too far, and waits for `reinitialise`; the sequence's time goes on.
 class Controller {
  public:
-  /// Whether the joints do what the sequence says.
-  enum class Status {
-    following,
-    bridging,  ///< there is no state, for a while; it follows again once there is one
-    stopped,   ///< see incident()
-  };
+  using Status = ArmController::Status;  // whether the joints do what the sequence says
+  using Tick = ArmController::Tick;      // the work of one tick
 
-  /// The work of one tick: the state and reference at its beginning, and the torque commanded for
-  /// it (what the actuator delivers is another where it is not ideal).
-  struct Tick {
-    double time = 0.0;       // [s] since the controller was made
-    int running = -1;        // index of the running primitive, -1 before the first
-    Sample sequence;         // its coordinates
-    Sample reference;        // n joints of the controller's model
-    ToolError tool_error;    // at the tick's beginning; nothing in joint space
-    Eigen::VectorXd q;       // n [rad]; true, where the sensor is not ideal
-    Eigen::VectorXd qd;      // n [rad/s]; likewise
-    Eigen::VectorXd torque;  // n [N·m]
-  };
-
-  /// @throws Error  the robot has a controller already, a coordinate is not a joint of the robot, a goal is outside a joint's limits or out of reach, an
-  ///                empty sequence, gains that are negative or not finite, a model whose joints are not the robot's first
-  ///                ones, and whatever TaskSpace, Actuator, Sensor and Guard refuse
+  /// @throws Error  the robot has a controller already, a model whose joints are not the robot's first
+  ///                ones, and whatever ArmController refuses
   Controller(Robot& robot, const Sequence& sequence, const JoinSettings& join,
              const ControllerSettings& settings = {});
   Controller(const Controller&) = delete;
@@ -90,46 +53,25 @@ class Controller {
   /// @param dt  [s] Bullet's tick; nothing is done unless it is > 0
   void pre_tick(double dt) noexcept;
 
-  /// Takes the sequence up again from where the arm is now: after it was reset, teleported or moved by something else,
-  /// or once what stopped it is over. What runs now is joined to the joints' state, at rest in acceleration; joints that are
-  /// not named hold where they are now; what the coordinates do not reach (the posture of a redundant arm) fades to what
-  /// the sequence asks for within a second. What the feedback had to hold is let go of. From far away a larger tau, set
-  /// before, makes the way back gentle. Does not allocate.
-  /// @return  false, and nothing is changed, where the goal is beyond a joint's limits, the state is not finite, or the
-  ///          tool's is not one that can be followed
+  /// Takes the sequence up again from where the robot is now, after it was reset, teleported or moved by something else, or
+  /// once what stopped it is over: see ArmController::reinitialise.
   bool reinitialise() noexcept;
 
   /// The last switch has been due; the arm goes on to the last goal and stays there.
-  bool finished() const noexcept { return sequencer_.finished(); }
-  Status status() const noexcept { return status_; }  // now
+  bool finished() const noexcept { return arm_.finished(); }
+  Status status() const noexcept { return arm_.status(); }  // now
   /// What made it bridge or stop last; none since it was made or re-initialised.
-  const Incident& incident() const noexcept { return incident_; }
+  const Incident& incident() const noexcept { return arm_.incident(); }
   /// In one line.
-  std::string what_happened() const { return describe(incident_, robot_.model()); }
+  std::string what_happened() const { return arm_.what_happened(); }
   /// The sequence as it runs: for changing its goal, tau, amplitude and queue between ticks.
-  Sequencer& sequencer() noexcept { return sequencer_; }
-  const Sequencer& sequencer() const noexcept { return sequencer_; }  // to look at
-  const Tick& last_tick() const noexcept { return tick_; }            // of the last pre_tick
+  Sequencer& sequencer() noexcept { return arm_.sequencer(); }
+  const Sequencer& sequencer() const noexcept { return arm_.sequencer(); }  // to look at
+  const Tick& last_tick() const noexcept { return arm_.last_tick(); }       // of the last pre_tick
 
  private:
   friend class Plugin;
 
-  const Eigen::VectorXd& q() const noexcept { return sensor_.ideal() ? tick_.q : sensor_.q(); }
-  const Eigen::VectorXd& qd() const noexcept { return sensor_.ideal() ? tick_.qd : sensor_.qd(); }
-  void begin_here() noexcept;
-  void begin_tick() noexcept;
-  bool measure(double dt) noexcept;
-  void watch(bool there) noexcept;
-  void look_at_goal() noexcept;
-  Incident goal_beyond_limits() noexcept;
-  void bridge() noexcept;
-  void regain() noexcept;
-  void plan(double dt) noexcept;
-  void command(double dt, bool there) noexcept;
-  void follow(const Sample& sequence, Sample& joints) noexcept;
-  void stop(const Incident& incident) noexcept;
-  void stop_here(const Incident& incident) noexcept;
-  void brake_from(const Sample& from) noexcept;
   void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
   // That a robot has one controller. It may be gone before that.
@@ -146,26 +88,8 @@ class Controller {
 
   Robot& robot_;
   Claim claim_;
-  Tick tick_;
-  std::unique_ptr<JointReference> joints_;
-  Sequencer sequencer_;
-  Execution brake_;                 // n joints; leads to rest
-  Eigen::VectorXd coming_to_rest_;  // n
-  ComputedTorque law_;
-  Sensor sensor_;
-  Guard guard_;
-  Actuator actuator_;
-  Followers followers_;
-  FadingOffset offset_;      // of the reference from what the sequence asks for
-  Sample taken_up_;          // of the sequence, that it was re-initialised with
-  Sample next_sequence_;     // at the end of the tick
-  Sample next_;              // n, the reference then
-  Sample here_;              // n, the joints' state
-  Eigen::VectorXd goal_;     // of the sequence, the last that was looked at
-  Eigen::VectorXd at_goal_;  // n
-  Status status_ = Status::following;
-  bool blind_ = false;  // there was no state in the last tick
-  Incident incident_;
+  ArmController arm_;
+  Eigen::VectorXd q_, qd_;    // n, the robot's state
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
   bool marked_ = false;
   Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody

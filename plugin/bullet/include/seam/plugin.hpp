@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include <seam/bullet_precision.hpp>
 #include <seam/export.hpp>
-#include <seam/precision.hpp>
 
 class btDynamicsWorld;
 class btMultiBodyDynamicsWorld;

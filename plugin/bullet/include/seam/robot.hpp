@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <seam/alignment.hpp>
+#include <seam/bullet_precision.hpp>
 #include <seam/export.hpp>
-#include <seam/precision.hpp>
 #include <seam/robot_model.hpp>
 
 class btMultiBody;

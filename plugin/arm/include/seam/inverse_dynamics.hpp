@@ -6,6 +6,7 @@
 
 #include <seam/alignment.hpp>
 #include <seam/export.hpp>
+#include <seam/precision.hpp>
 #include <seam/robot_model.hpp>
 
 namespace SEAM_API seam {
@@ -17,7 +18,8 @@ namespace SEAM_API seam {
 /// when made. The tree is also the workspace: one thread at a time.
 class InverseDynamics {
  public:
-  /// @throws Error  Bullet refuses a body (its parent does not come before it)
+  /// @throws Error  Bullet refuses a body (its parent does not come before it); Bullet's libraries of both precisions are
+  ///                loaded
   explicit InverseDynamics(const RobotModel& model);
   InverseDynamics(InverseDynamics&&) noexcept;             // takes over the tree
   InverseDynamics& operator=(InverseDynamics&&) noexcept;  // likewise

@@ -2,14 +2,9 @@
 
 #include <string>
 
-#include <Eigen/Core>
-
 #include <seam/robot_model.hpp>
 
 namespace seam {
-
-/// Inertia that each joint moves at the neutral position [kg m² or kg], others at rest: the diagonal of M(q).
-Eigen::VectorXd moved_inertia(const RobotModel& model);
 
 /// Looks at the joints' inertia matrix M(q) where bodies have no mass, no inertia or a negative moment, in random positions and in those where joints
 /// line up (see RobotModel::read). Without inertia almost everywhere, points that have mass become balls, with a warning

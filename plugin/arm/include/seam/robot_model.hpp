@@ -121,6 +121,8 @@ struct RobotModel {
   void place_followers(Eigen::Ref<Eigen::VectorXd> q) const noexcept;
   /// Where a robot begins: each joint at 0 or the limit next to it, followers where that has them.
   Eigen::VectorXd neutral() const;
+  /// Inertia that each joint moves there while the others are at rest [kg m² or kg]: the diagonal of M(q).
+  Eigen::VectorXd moved_inertia() const;
 
   /// Reads a URDF tree of revolute, continuous, prismatic and fixed joints.
   ///

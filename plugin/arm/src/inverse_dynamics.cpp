@@ -46,6 +46,7 @@ InverseDynamics::Tree::Tree(const RobotModel& model)
       qd(model.dof()),
       qdd(model.dof()),
       torque(model.dof()) {
+  require_one_precision();
   const id::vec3 zero(btVector3(0, 0, 0));
   const id::mat33 one(btMatrix3x3::getIdentity());
   if (root == 1) {

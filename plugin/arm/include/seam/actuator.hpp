@@ -33,6 +33,10 @@ class Actuator {
   /// @param dt  [s] > 0
   /// @return    what is delivered during the tick, n [N·m]
   const Eigen::VectorXd& deliver(double dt, const Eigen::VectorXd& commanded) noexcept;
+  /// What is delivered now, if that was commanded last.
+  const Eigen::VectorXd& delivered(const Eigen::VectorXd& commanded) const noexcept {
+    return ideal_ ? commanded : delivered_;
+  }
 
  private:
   Eigen::VectorXd quantum_, limit_, rate_, lag_;

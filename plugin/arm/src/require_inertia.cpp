@@ -300,8 +300,8 @@ class Inertia {
 
 }  // namespace
 
-Eigen::VectorXd moved_inertia(const RobotModel& model) {
-  return joint_inertia(model, model.neutral()).matrix.diagonal();
+Eigen::VectorXd RobotModel::moved_inertia() const {
+  return joint_inertia(*this, neutral()).matrix.diagonal();
 }
 
 void require_inertia(RobotModel& model, const std::string& path) {

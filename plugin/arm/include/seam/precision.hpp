@@ -1,21 +1,18 @@
 #pragma once
 
-#include <LinearMath/btScalar.h>
-
 #include <seam/export.hpp>
 
-// Bullet is built in double or in float, and so is seam: seam::bullet, seam::bullet-float32. One program takes one kind.
-// Mixing them would go wrong at run time, so it is stopped here, or by the linker.
-//     undefined reference to `seam::this_needs_seam_bullet...'      compiled for one kind of seam, linked with the other
+// Bullet is built in double or in float, and so is what computes with it: seam::arm and seam::bullet, seam::arm-float32 and
+// seam::bullet-float32. One program takes one kind. Mixing them would go wrong at run time, so it is stopped here, or by the
+// linker.
+//     undefined reference to `seam::this_needs_seam_arm...'         compiled for one kind of seam, linked with the other
 //     ...: TLS reference in ... mismatches non-TLS ... in LIBRARY   LIBRARY is, or needs, Bullet of the other kind
 #if defined(SEAM_BULLET_MIXED)
 #error \
-    "this target links seam in one precision and Bullet in the other: take seam::bullet with Bullet's -float64 libraries, or seam::bullet-float32 with its float libraries"
+    "this target links seam in one precision and Bullet in the other: take seam::arm or seam::bullet with Bullet's -float64 libraries, or seam::arm-float32 or seam::bullet-float32 with its float libraries"
 #elif defined(SEAM_BULLET_FLOAT64) && defined(SEAM_BULLET_FLOAT32)
-#error "both seam::bullet and seam::bullet-float32 are linked: take one"
-#elif defined(SEAM_BULLET_FLOAT64) && !defined(BT_USE_DOUBLE_PRECISION)
 #error \
-    "seam::bullet needs BT_USE_DOUBLE_PRECISION and Bullet's -float64 libraries: with Bullet in float, take seam::bullet-float32"
+    "seam is linked in both precisions: take seam::arm or seam::bullet, or the same with -float32"
 #elif defined(SEAM_BULLET_FLOAT32) && defined(BT_USE_DOUBLE_PRECISION)
 #error \
     "seam::bullet-float32 does not go with BT_USE_DOUBLE_PRECISION: with Bullet in double, take seam::bullet"
@@ -23,19 +20,22 @@
 
 namespace SEAM_API seam {
 
-/// In seam::bullet alone: a program that is linked with the other library misses it, and the linker names it.
-extern const char this_needs_seam_bullet;
-/// In seam::bullet-float32 alone, likewise.
-extern const char this_needs_seam_bullet_float32;
+/// In seam::arm alone: a program that is linked with the other library misses it, and the linker names it.
+extern const char this_needs_seam_arm;
+/// In seam::arm-float32 alone, likewise.
+extern const char this_needs_seam_arm_float32;
+
+/// The last guard against mixed precisions, for libraries that come by ways which neither compiler nor linker see.
+/// InverseDynamics and Robot call it as they are made.
+/// @throws Error  Bullet's libraries of the other precision are loaded, too
+void require_one_precision();
 
 /// @cond
-#ifdef BT_USE_DOUBLE_PRECISION
-static_assert(sizeof(btScalar) == 8, "btScalar must be double");
-[[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet;
+#if defined(SEAM_BULLET_FLOAT64) || defined(BT_USE_DOUBLE_PRECISION)
+[[gnu::used]] static const char* const precision_linked = &this_needs_seam_arm;
 #define SEAM_OTHER_SCALAR "f"
 #else
-static_assert(sizeof(btScalar) == 4, "btScalar must be float");
-[[gnu::used]] static const char* const precision_linked = &this_needs_seam_bullet_float32;
+[[gnu::used]] static const char* const precision_linked = &this_needs_seam_arm_float32;
 #define SEAM_OTHER_SCALAR "d"
 #endif
 

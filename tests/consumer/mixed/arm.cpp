@@ -1,0 +1,3 @@
+#include <seam/arm.hpp>
+
+int main() {}
