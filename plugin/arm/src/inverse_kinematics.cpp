@@ -79,9 +79,9 @@ Vector6d InverseKinematics::error(const Eigen::Isometry3d& target) const noexcep
   return e;
 }
 
-// λ² at other joint positions; leaves the kinematics there.
-double InverseKinematics::softness_at(const Eigen::VectorXd& q) noexcept {
-  kinematics_.move_to(q);
+// λ² where the kinematics is.
+double InverseKinematics::softness_here() const noexcept {
+  if (damped_below_ == 0.0) return 0.0;
   const Jacobian& J = kinematics_.jacobian();
   const Eigen::Matrix<double, 6, 6> square = J * J.transpose();
   const double w = std::sqrt(std::max(square.determinant(), 0.0));
@@ -89,19 +89,24 @@ double InverseKinematics::softness_at(const Eigen::VectorXd& q) noexcept {
   return short_of > 0.0 ? damping_ * short_of * short_of * short_of * short_of : 0.0;
 }
 
-// λ² and its slope at q_, by central differences.
+// At other joint positions; leaves the kinematics there.
+double InverseKinematics::softness_at(const Eigen::VectorXd& q) noexcept {
+  kinematics_.move_to(q);
+  return softness_here();
+}
+
+// λ² and its slope at q_, where the kinematics is, by central differences.
 void InverseKinematics::soften() noexcept {
   softness_slope_.setZero();
-  softness_ = damped_below_ > 0.0 ? softness_at(q_) : 0.0;
-  if (softness_ > 0.0) {
-    nearby_ = q_;
-    for (Eigen::Index i = 0; i < q_.size(); ++i) {
-      nearby_(i) = q_(i) + near;
-      const double above = softness_at(nearby_);
-      nearby_(i) = q_(i) - near;
-      softness_slope_(i) = (above - softness_at(nearby_)) / (2.0 * near);
-      nearby_(i) = q_(i);
-    }
+  softness_ = softness_here();
+  if (softness_ == 0.0) return;
+  nearby_ = q_;
+  for (Eigen::Index i = 0; i < q_.size(); ++i) {
+    nearby_(i) = q_(i) + near;
+    const double above = softness_at(nearby_);
+    nearby_(i) = q_(i) - near;
+    softness_slope_(i) = (above - softness_at(nearby_)) / (2.0 * near);
+    nearby_(i) = q_(i);
   }
   kinematics_.move_to(q_);
 }
@@ -118,7 +123,7 @@ double InverseKinematics::softness_curvature(const Eigen::VectorXd& qd) noexcept
   return (after - 2.0 * softness_ + before) / (h * h);
 }
 
-// The matrix of both conditions' derivatives at q_, factored.
+// The matrix of both conditions' derivatives at q_, where the kinematics is, factored.
 void InverseKinematics::assemble() noexcept {
   const int n = dof();
   soften();

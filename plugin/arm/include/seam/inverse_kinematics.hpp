@@ -85,6 +85,7 @@ class InverseKinematics {
   bool converge(const Eigen::Isometry3d& target) noexcept;
   bool within_limits() const noexcept;
   void assemble() noexcept;
+  double softness_here() const noexcept;
   double softness_at(const Eigen::VectorXd& q) noexcept;
   void soften() noexcept;
   double softness_curvature(const Eigen::VectorXd& qd) noexcept;
