@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 
+#include "plugin/examples/movement.hpp"
 #include "tests/allocation_guard.hpp"
 #include "tests/support.hpp"
 #include <seam/arm.hpp>
@@ -29,12 +30,10 @@ Eigen::VectorXd bent() {
   return q;
 }
 
-Sequence elbow(double by = 0.4) {
-  Demonstration demo = minimum_jerk(by);
-  demo.position.array() += 0.8;
-  demo.coordinates = {"E1"};
+Sequence elbow() {
   Sequence task;
-  task.then(learn(demo));
+  task.then(learn(
+      movement({"E1"}, Eigen::VectorXd::Constant(1, 0.8), Eigen::VectorXd::Constant(1, 1.2), 1.0)));
   return task;
 }
 
@@ -157,12 +156,8 @@ TEST(ArmController, AllocatesNothingInATick) {
   Kinematics hand(pa10(), "tool");
   hand.move_to(arm.q);
   const Eigen::Vector3d here = hand.X_base_tool().translation();
-  const Demonstration unit = minimum_jerk(0.1);
   Sequence task;
-  task.then(learn(Demonstration::from_positions(
-      {"x", "y", "z"}, unit.time,
-      unit.position * Eigen::RowVector3d(0.0, 1.0, 0.0) +
-          Eigen::VectorXd::Ones(unit.time.size()) * here.transpose())));
+  task.then(learn(movement({"x", "y", "z"}, here, here + Eigen::Vector3d(0.0, 0.1, 0.0), 1.0)));
   ArmController in_joints = controller_of(arm);
   ArmController in_space = controller_of(arm, {{}, tool}, task);
   const AllocationGuard guard;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include "plugin/examples/movement.hpp"
 #include "scenes/scene.hpp"
 #include "tests/support.hpp"
 #include "tests/temp_folder.hpp"
@@ -132,11 +133,7 @@ TEST_P(Mujoco, MovesAllSevenJoints) {
   there << -0.3, 0.9, 0.2, 1.3, -0.2, 0.1, 0.7;
   back << 0.4, 0.2, -0.1, 0.9, 0.3, 0.9, 0.2;
   const auto reach = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
-    const Demonstration unit = minimum_jerk();
-    return learn(Demonstration::from_positions(
-        names, unit.time,
-        unit.position * (to - from).transpose() +
-            Eigen::VectorXd::Ones(unit.time.size()) * from.transpose()));
+    return learn(movement(names, from, to, 1.0));
   };
   Sequence task;
   task.then(reach(start, there)).until(before_end(0.4)).then(reach(there, back));
