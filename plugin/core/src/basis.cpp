@@ -167,22 +167,18 @@ SEAM_WIDEST_VECTORS void add_up(const Rhythmic<2>& family, int M, const Weighted
   sum_up(family, M, f);
 }
 
-Eigen::ArrayXd filled_up(const Eigen::ArrayXd& values, double by) {
-  Eigen::ArrayXd longer = Eigen::ArrayXd::Constant(padded(static_cast<int>(values.size())), by);
-  longer.head(values.size()) = values;
-  return longer;
-}
-
 }  // namespace
 
 Basis::Basis(const Primitive& primitive)
     : kind_(primitive.kind),
       alpha_(primitive.alpha),
       count_(primitive.kernels.count()),
-      centers_(filled_up(primitive.kernels.centers.array(), 2.0)),
-      precision_(filled_up(0.5 / primitive.kernels.widths.array().square(), nothing)),
-      cosines_(filled_up(primitive.kernels.centers.array().cos(), 0.0)),
-      sines_(filled_up(primitive.kernels.centers.array().sin(), 0.0)) {}
+      kernels_(padded(count_), columns) {
+  kernels_.rowwise() = Eigen::Array4d(2.0, nothing, 0.0, 0.0).transpose();
+  const Eigen::ArrayXd centers = primitive.kernels.centers.array();
+  kernels_.topRows(count_) << centers, 0.5 / primitive.kernels.widths.array().square(),
+      centers.cos(), centers.sin();
+}
 
 double Basis::advance(double phase, double t, double tau) const noexcept {
   if (kind_ == Kind::rhythmic) return phase + t / tau;
@@ -206,13 +202,9 @@ double Basis::phase_rate(double phase, double tau) const noexcept {
 
 void Basis::regressor(double phase, double* row) const noexcept {
   if (kind_ == Kind::discrete)
-    fill_row(Discrete<1>{centers_.data(), precision_.data(), {phase}}, {row, count_});
+    fill_row(Discrete<1>{at(center), at(precision), {phase}}, {row, count_});
   else
-    fill_row(Rhythmic<1>{cosines_.data(),
-                         sines_.data(),
-                         precision_.data(),
-                         {std::cos(phase)},
-                         {std::sin(phase)}},
+    fill_row(Rhythmic<1>{at(cosine), at(sine), at(precision), {std::cos(phase)}, {std::sin(phase)}},
              {row, count_});
 }
 
@@ -220,11 +212,11 @@ void Basis::forcing(double first, double second, const double* weights, int stri
                     double* f_second) const noexcept {
   const WeightedSums sums{weights, stride, {f_first, f_second}};
   if (kind_ == Kind::discrete)
-    add_up(Discrete<2>{centers_.data(), precision_.data(), {first, second}}, count_, sums);
+    add_up(Discrete<2>{at(center), at(precision), {first, second}}, count_, sums);
   else
-    add_up(Rhythmic<2>{cosines_.data(),
-                       sines_.data(),
-                       precision_.data(),
+    add_up(Rhythmic<2>{at(cosine),
+                       at(sine),
+                       at(precision),
                        {std::cos(first), std::cos(second)},
                        {std::sin(first), std::sin(second)}},
            count_, sums);
@@ -235,9 +227,9 @@ void Basis::slope(double phase, const double* row, double* slope) const noexcept
   const double s =
       kind_ == Kind::discrete ? std::max(phase, std::numeric_limits<double>::min()) : 1.0;
   const auto h = [&](int j) {
-    return kind_ == Kind::discrete
-               ? -2.0 * precision_[j] * (phase - centers_[j])
-               : precision_[j] * (std::cos(phase) * sines_[j] - std::sin(phase) * cosines_[j]);
+    return kind_ == Kind::discrete ? -2.0 * at(precision)[j] * (phase - at(center)[j])
+                                   : at(precision)[j] * (std::cos(phase) * at(sine)[j] -
+                                                         std::sin(phase) * at(cosine)[j]);
   };
   double mean = 0.0;
   for (int j = 0; j < count(); ++j) mean += h(j) * row[j] / s;

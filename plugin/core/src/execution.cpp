@@ -28,8 +28,8 @@ SEAM_INLINE void flush(Lanes& v) {
   v = magnitude > least_magnitude ? v : Lanes{};
 }
 
-// s ← Φs + Γ(f₀, f_m, f₁)ᵀ for every coordinate; matrices by columns.
-SEAM_WIDEST_VECTORS void propagate(const double* P, const double* G, int stride, const double* f0,
+// s ← Φs + Γ(f₀, f_m, f₁)ᵀ and f₀ ← f₁ for every coordinate; matrices by columns.
+SEAM_WIDEST_VECTORS void propagate(const double* P, const double* G, int stride, double* f0,
                                    const double* fm, const double* f1, double* offset,
                                    double* velocity, double* added, double* added_rate) noexcept {
   for (int d = 0; d < stride; d += lanes) {
@@ -54,6 +54,7 @@ SEAM_WIDEST_VECTORS void propagate(const double* P, const double* G, int stride,
     SEAM_LANES(velocity + d) = next_v;
     SEAM_LANES(added + d) = next_e;
     SEAM_LANES(added_rate + d) = next_ed;
+    SEAM_LANES(f0 + d) = end;
   }
 }
 
@@ -69,7 +70,6 @@ SEAM_WIDEST_VECTORS void observe(double k, double c, double b, int D, const doub
   }
 }
 
-// 1 − (10s³ − 15s⁴ + 6s⁵), and its derivative with respect to s.
 }  // namespace
 
 Execution::Execution(const Primitive& primitive)
@@ -80,13 +80,10 @@ Execution::Execution(const Primitive& primitive)
   const int D = primitive.dimensions();
   const int M = basis_.count();
   const int stride = padded(D);
-  learned_.setZero(padded(M), stride);
-  learned_.topLeftCorner(M, D) = primitive.weights;
-  change_.setZero(padded(M), stride);
-  for (Eigen::VectorXd* state : {&goal_, &offset_, &velocity_, &added_, &added_rate_, &f_start_,
-                                 &f_middle_, &f_end_, &faded_middle_, &faded_end_})
-    state->setZero(stride);
-  goal_.head(D) = primitive.goal;
+  hot_.setZero(stride, columns + padded(M));
+  cold_.setZero(stride, rare_columns + 2 * padded(M));
+  learned().topLeftCorner(D, M) = primitive.weights.transpose();
+  at(target).head(D) = primitive.goal;
   row_.setZero(M);
   slope_.setZero(M);
   Sample start(D);
@@ -95,42 +92,42 @@ Execution::Execution(const Primitive& primitive)
   reinitialise(start, basis_.start_phase(), Join::dmp2);
 }
 
-void Execution::reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept {
+void Execution::reinitialise(const Sample& from, double phase, const JoinSettings& join) noexcept {
   join_ = join;
   fading_ = false;
-  weights_ = learned_;
-  change_.setZero();
-  added_.setZero();
-  added_rate_.setZero();
+  weights() = learned();
+  change().setZero();
+  at(added).setZero();
+  at(added_rate).setZero();
   joined_phase_ = phase;
-  continue_at(at, phase, true);
+  continue_from(from, phase, true);
 }
 
 // Continues from a state: what is missing of the forcing is made up for as the method says. At a join by the weights if
 // they hold, on the way of a rhythmic primitive by a forcing that is added and dies out.
-void Execution::continue_at(const Sample& at, double phase, bool at_join) noexcept {
+void Execution::continue_from(const Sample& from, double phase, bool at_join) noexcept {
   entry_phase_ = phase_ = phase;
   elapsed_ = 0.0;
   evaluate_regressor();
   const bool by_weights = weights_hold() && (at_join || kind() == Kind::discrete);
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
     const Forcing has = present(d);
-    const Forcing needs = needed(at, d);
-    const Forcing missing{needs.value - has.value - added_(d),
-                          needs.rate - has.rate - added_rate_(d)};
-    offset_(d) = at.position(d) - goal_(d);
-    velocity_(d) = at.velocity(d);
-    f_start_(d) = has.value;
+    const Forcing needs = needed(from, d);
+    const Forcing missing{needs.value - has.value - at(added)(d),
+                          needs.rate - has.rate - at(added_rate)(d)};
+    at(offset)(d) = from.position(d) - at(target)(d);
+    at(velocity)(d) = from.velocity(d);
+    at(f_start)(d) = has.value;
     if (join_.method == Join::dmp2) continue;
     if (join_.method == Join::dmp3) {
-      added_(d) += missing.value;
-      added_rate_(d) = -gains_.H / tau_ * added_(d);
+      at(added)(d) += missing.value;
+      at(added_rate)(d) = -gains_.H / tau_ * at(added)(d);
     } else if (by_weights) {
       change_weights(d, missing);
-      f_start_(d) += missing.value;
+      at(f_start)(d) += missing.value;
     } else {
-      added_(d) += missing.value;
-      if (join_.method == Join::dmp2j) added_rate_(d) += missing.rate;
+      at(added)(d) += missing.value;
+      if (join_.method == Join::dmp2j) at(added_rate)(d) += missing.rate;
     }
   }
   refresh_sample();
@@ -138,7 +135,7 @@ void Execution::continue_at(const Sample& at, double phase, bool at_join) noexce
 
 void Execution::change_weights(Eigen::Index d, Forcing missing) noexcept {
   fading_ = kind() == Kind::rhythmic;
-  auto change = (fading_ ? change_ : weights_).col(d).head(basis_.count());
+  auto change = (fading_ ? this->change() : weights()).row(d).head(basis_.count());
   const double aa = row_.squaredNorm();
   if (join_.method == Join::dmp2j) {
     const double ab = row_.dot(slope_);
@@ -180,10 +177,10 @@ void Execution::evaluate_regressor() noexcept {
 
 // The forcing of the weights and its rate as they are: learned, changed and fading.
 Execution::Forcing Execution::present(Eigen::Index d) const noexcept {
-  const auto weights = weights_.col(d).head(basis_.count());
+  const auto weights = this->weights().row(d).head(basis_.count());
   Forcing f{weights.dot(row_), weights.dot(slope_)};
   if (!fading_) return f;
-  const auto change = change_.col(d).head(basis_.count());
+  const auto change = this->change().row(d).head(basis_.count());
   const double share = fade(faded(phase_));
   const double slope = fade_slope(faded(phase_)) * basis_.phase_rate(phase_, tau_) / M_PI;
   f.value += share * change.dot(row_);
@@ -196,12 +193,12 @@ double Execution::faded(double phase) const noexcept {
   return std::min((phase - joined_phase_) / M_PI, 1.0);
 }
 
-Execution::Forcing Execution::needed(const Sample& at, Eigen::Index d) const noexcept {
+Execution::Forcing Execution::needed(const Sample& from, Eigen::Index d) const noexcept {
   const double tau2 = tau_ * tau_;
   const double damping = tau_ * gains_.D;
-  return {
-      tau2 * at.acceleration(d) + damping * at.velocity(d) - gains_.K * (goal_(d) - at.position(d)),
-      tau2 * at.jerk(d) + damping * at.acceleration(d) + gains_.K * at.velocity(d)};
+  return {tau2 * from.acceleration(d) + damping * from.velocity(d) -
+              gains_.K * (at(target)(d) - from.position(d)),
+          tau2 * from.jerk(d) + damping * from.acceleration(d) + gains_.K * from.velocity(d)};
 }
 
 void Execution::step(double dt) noexcept {
@@ -212,24 +209,23 @@ void Execution::step(double dt) noexcept {
 
 void Execution::advance(double dt) noexcept {
   if (dt != dt_) set_step(dt);
-  const int stride = static_cast<int>(goal_.size());
+  const int stride = static_cast<int>(hot_.rows());
   const double middle = kind() == Kind::discrete ? phase_ * half_step_ : phase_ + half_step_;
   elapsed_ += dt;
   phase_ = basis_.advance(entry_phase_, elapsed_, tau_);
-  basis_.forcing(middle, phase_, weights_.data(), stride, f_middle_.data(), f_end_.data());
+  basis_.forcing(middle, phase_, weights().data(), stride, at(f_middle).data(), at(f_end).data());
   if (fading_) add_fading(middle);
-  if (amplitude_ != 1.0) f_middle_ *= amplitude_, f_end_ *= amplitude_;
-  propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, f_start_.data(),
-            f_middle_.data(), f_end_.data(), offset_.data(), velocity_.data(), added_.data(),
-            added_rate_.data());
-  f_start_.swap(f_end_);
+  if (amplitude_ != 1.0) at(f_middle) *= amplitude_, at(f_end) *= amplitude_;
+  propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, at(f_start).data(),
+            at(f_middle).data(), at(f_end).data(), at(offset).data(), at(velocity).data(),
+            at(added).data(), at(added_rate).data());
 }
 
 void Execution::add_fading(double middle) noexcept {
-  basis_.forcing(middle, phase_, change_.data(), static_cast<int>(goal_.size()),
-                 faded_middle_.data(), faded_end_.data());
-  f_middle_ += fade(faded(middle)) * faded_middle_;
-  f_end_ += fade(faded(phase_)) * faded_end_;
+  basis_.forcing(middle, phase_, change().data(), static_cast<int>(cold_.rows()),
+                 at(faded_middle).data(), at(faded_end).data());
+  at(f_middle) += fade(faded(middle)) * at(faded_middle);
+  at(f_end) += fade(faded(phase_)) * at(faded_end);
   fading_ = faded(phase_) < 1.0;
 }
 
@@ -241,14 +237,15 @@ void Execution::set_step(double dt) noexcept {
 
 void Execution::refresh_sample() noexcept {
   observe(gains_.K / (tau_ * tau_), gains_.D / tau_, 1.0 / (tau_ * tau_), dimensions(),
-          goal_.data(), offset_.data(), velocity_.data(), added_.data(), f_start_.data(),
-          sample_.position.data(), sample_.velocity.data(), sample_.acceleration.data());
+          at(target).data(), at(offset).data(), at(velocity).data(), at(added).data(),
+          at(f_start).data(), sample_.position.data(), sample_.velocity.data(),
+          sample_.acceleration.data());
 }
 
 const Sample& Execution::state() noexcept {
   evaluate_regressor();
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    sample_.jerk(d) = (present(d).rate + added_rate_(d) - gains_.K * velocity_(d) -
+    sample_.jerk(d) = (present(d).rate + at(added_rate)(d) - gains_.K * at(velocity)(d) -
                        tau_ * gains_.D * sample_.acceleration(d)) /
                       (tau_ * tau_);
   }
@@ -257,10 +254,10 @@ const Sample& Execution::state() noexcept {
 
 bool Execution::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {
   if (goal.size() != dimensions() || !goal.allFinite()) return false;
-  if (goal == goal_.head(dimensions())) return true;
+  if (goal == this->goal()) return true;
   const Sample& now = state();
-  goal_.head(dimensions()) = goal;
-  continue_at(now, phase_, false);
+  at(target).head(dimensions()) = goal;
+  continue_from(now, phase_, false);
   return true;
 }
 
@@ -270,7 +267,7 @@ bool Execution::set_tau(double tau) noexcept {
   const Sample& now = state();
   tau_ = tau;
   dt_ = std::numeric_limits<double>::quiet_NaN();
-  continue_at(now, phase_, false);
+  continue_from(now, phase_, false);
   return true;
 }
 
@@ -279,16 +276,16 @@ bool Execution::set_amplitude(double amplitude) noexcept {
   if (amplitude == amplitude_) return true;
   const Sample& now = state();
   amplitude_ = amplitude;
-  continue_at(now, phase_, false);
+  continue_from(now, phase_, false);
   return true;
 }
 
-double Execution::correction(const Sample& at, double phase) noexcept {
+double Execution::correction(const Sample& from, double phase) noexcept {
   basis_.regressor(phase, row_.data());
   double sum = 0.0;
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const double learned = amplitude_ * learned_.col(d).head(basis_.count()).dot(row_);
-    const double missing = needed(at, d).value - learned;
+    const double has = amplitude_ * learned().row(d).head(basis_.count()).dot(row_);
+    const double missing = needed(from, d).value - has;
     sum += missing * missing;
   }
   return sum / (tau_ * tau_ * tau_ * tau_);

@@ -44,10 +44,16 @@ class Basis {
   Kind kind_;
   double alpha_;
   int count_;
-  // Filled up to a multiple of four by kernels that vanish.
-  Eigen::ArrayXd centers_;
-  Eigen::ArrayXd precision_;        // 1/2σ²
-  Eigen::ArrayXd cosines_, sines_;  // of the centres
+  // Columns, filled up to a multiple of four by kernels that vanish.
+  enum Column {
+    center,
+    precision,  // 1/2σ²
+    cosine,     // of the centre
+    sine,
+    columns
+  };
+  const double* at(Column column) const noexcept { return kernels_.col(column).data(); }
+  Eigen::ArrayXXd kernels_;
 };
 
 }  // namespace seam

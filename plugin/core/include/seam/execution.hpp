@@ -44,7 +44,7 @@ class Execution {
 
   /// Continues from a state at a phase of the primitive, which the caller vouches for: D finite values each (the jerk
   /// counts for dmp2j alone), 0 < x ≤ 1 or φ finite.
-  void reinitialise(const Sample& at, double phase, const JoinSettings& join) noexcept;
+  void reinitialise(const Sample& from, double phase, const JoinSettings& join) noexcept;
   /// Advances by dt [s] ≥ 0. Exact in the linear part, of fourth order in the forcing.
   void step(double dt) noexcept;
 
@@ -61,7 +61,7 @@ class Execution {
 
   /// Square of the step in acceleration, over all coordinates, that dmp2 would leave if the execution were
   /// re-initialised at a state and a phase: what the other methods have to make up for.
-  double correction(const Sample& at, double phase) noexcept;
+  double correction(const Sample& from, double phase) noexcept;
   /// The phase of a rhythmic primitive at which the least correction is needed to continue from a state.
   double least_correction_phase(const Sample& at) noexcept;
 
@@ -71,23 +71,21 @@ class Execution {
   double tau() const noexcept { return tau_; }              // [s] what it is now
   double amplitude() const noexcept { return amplitude_; }  // what it is now
   /// What it is now; D values.
-  Eigen::VectorXd::ConstSegmentReturnType goal() const noexcept { return goal_.head(dimensions()); }
+  Eigen::Map<const Eigen::VectorXd> goal() const noexcept { return {hot_.data(), dimensions()}; }
   int dimensions() const noexcept { return static_cast<int>(sample_.position.size()); }  // D
 
  private:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   struct Forcing {
     double value, rate;
   };
 
-  void continue_at(const Sample& at, double phase, bool at_join) noexcept;
+  void continue_from(const Sample& from, double phase, bool at_join) noexcept;
   void change_weights(Eigen::Index d, Forcing missing) noexcept;
   bool weights_hold() const noexcept;
   void evaluate_regressor() noexcept;
   double faded(double phase) const noexcept;
   Forcing present(Eigen::Index d) const noexcept;
-  Forcing needed(const Sample& at, Eigen::Index d) const noexcept;
+  Forcing needed(const Sample& from, Eigen::Index d) const noexcept;
   void advance(double dt) noexcept;
   void set_step(double dt) noexcept;
   void add_fading(double middle) noexcept;
@@ -99,18 +97,39 @@ class Execution {
   double amplitude_ = 1.0;
   Basis basis_;
   JoinSettings join_;
-  // Coordinates lie behind one another; they and the kernels are filled up with zeros to a multiple of four.
-  Rows learned_;  // M × D
-  Rows weights_;  // M × D, with Δw of a discrete primitive
-  Rows change_;   // M × D, Δw of a rhythmic primitive
-  Eigen::VectorXd goal_;
-  Eigen::VectorXd offset_, velocity_;  // y − g, ẏ
-  Eigen::VectorXd added_,
-      added_rate_;  // e, ė: forcing that is added and dies out; K(r − g) of dmp3
-  Eigen::VectorXd f_start_, f_middle_, f_end_;
-  Eigen::VectorXd faded_middle_, faded_end_;  // what change_ would add in full
-  Eigen::VectorXd row_, slope_;               // M, a(p) and ȧ
-  bool fading_ = false;                       // change_ is not zero
+  // What a step works on lies together: a column for each of these, then one for each kernel of the weights that act (w,
+  // with Δw of a discrete primitive). Coordinates and kernels are filled up with zeros to a multiple of four.
+  enum Column {
+    target,      // g
+    offset,      // y − g
+    velocity,    // ẏ
+    added,       // e: forcing that is added and dies out; K(r − g) of dmp3
+    added_rate,  // ė
+    f_start,
+    f_middle,
+    f_end,
+    columns
+  };
+  // And what most steps have no use for, likewise: these, the learned weights, and Δw of a rhythmic primitive.
+  enum RareColumn {
+    faded_middle,  // what Δw would add in full
+    faded_end,
+    rare_columns
+  };
+
+  Eigen::Index kernels() const noexcept { return hot_.cols() - columns; }
+  auto at(Column column) noexcept { return hot_.col(column); }
+  auto at(Column column) const noexcept { return hot_.col(column); }
+  auto at(RareColumn column) noexcept { return cold_.col(column); }
+  auto weights() noexcept { return hot_.rightCols(kernels()); }
+  auto weights() const noexcept { return hot_.rightCols(kernels()); }
+  auto learned() noexcept { return cold_.middleCols(rare_columns, kernels()); }
+  auto change() noexcept { return cold_.rightCols(kernels()); }
+  auto change() const noexcept { return cold_.rightCols(kernels()); }
+
+  Eigen::MatrixXd hot_, cold_;
+  Eigen::RowVectorXd row_, slope_;  // M, a(p) and ȧ
+  bool fading_ = false;             // Δw of a rhythmic primitive is not zero
   Propagator propagator_;
   double dt_ = std::numeric_limits<double>::quiet_NaN();
   double half_step_ = 0.0;  // what half of dt does to the phase: a factor of x, an addend to φ
