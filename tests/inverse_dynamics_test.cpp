@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -120,6 +121,56 @@ TEST(InverseDynamics, FeelsAPayloadThatIsAddedToTheModel) {
   model.bodies[0].inertial = model.bodies[0].inertial + payload;
   const double added = (1e-3 + 0.5 * 0.64) * 2.0 + 0.5 * 9.81 * 0.8 * std::sin(0.4);
   EXPECT_NEAR(torque(seam::InverseDynamics(model), 0.4, 0.0, 2.0), bare + added, 1e-13);
+}
+
+// What it works in is shared by all of a model.
+TEST(InverseDynamics, OfOneModelDoNotDisturbEachOther) {
+  const auto model = seam::RobotModel::read(pa10);
+  seam::InverseDynamics hanging(model), standing(model);
+  hanging.set_gravity({0.0, 0.0, 9.81});
+  RandomRobot random(5);
+  const VectorXd q = random.vector(7, 2.0), qd = random.vector(7, 1.0), qdd = random.vector(7, 5.0);
+  const VectorXd alone = torque(standing, q, qd, qdd);
+  const VectorXd other = torque(hanging, -q, qd, qdd);
+  EXPECT_GT((other - alone).norm(), 1.0);
+  EXPECT_EQ(torque(standing, q, qd, qdd), alone);
+  EXPECT_EQ(torque(hanging, -q, qd, qdd), other);
+  hanging.set_gravity({0.0, 0.0, -9.81});
+  EXPECT_EQ(torque(hanging, q, qd, qdd), alone);
+}
+
+TEST(InverseDynamics, OfAnotherMassIsItsOwn) {
+  auto model = seam::RobotModel::read(pa10);
+  const seam::InverseDynamics light(model);
+  model.bodies.back().inertial.mass += 1.0;
+  const seam::InverseDynamics heavy(model);
+  const VectorXd q = VectorXd::Constant(7, 0.5), rest = VectorXd::Zero(7);
+  EXPECT_GT((torque(heavy, q, rest, rest) - torque(light, q, rest, rest)).norm(), 1.0);
+}
+
+TEST(InverseDynamics, WorksInManyThreadsAtOnce) {
+  const auto model = seam::RobotModel::read(pa10);
+  RandomRobot random(6);
+  std::vector<VectorXd> states;
+  std::vector<VectorXd> expected;
+  std::vector<seam::InverseDynamics> dynamics;
+  for (int i = 0; i < 4; ++i) {
+    states.push_back(random.vector(7, 2.0));
+    dynamics.emplace_back(model);
+    expected.push_back(torque(dynamics.back(), states.back(), states.back(), states.back()));
+  }
+  const seam::InverseDynamics here(model);
+  std::vector<int> wrong(4, 0);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < 4; ++i)
+    threads.emplace_back([&, i] {
+      for (int k = 0; k < 2000; ++k)
+        if (torque(dynamics[i], states[i], states[i], states[i]) != expected[i]) ++wrong[i];
+    });
+  for (int k = 0; k < 2000; ++k)  // in the tree that all share
+    EXPECT_EQ(torque(here, states[1], states[1], states[1]), expected[1]);
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
 
 TEST(InverseDynamics, AllocatesNothingInACall) {

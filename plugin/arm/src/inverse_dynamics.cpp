@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cassert>
+#include <vector>
 
 #include <BulletInverseDynamics/MultiBodyTree.hpp>
 
@@ -27,10 +28,30 @@ bool needs_root(const RobotModel& model) {
                        [](const Joint& joint) { return joint.parent < 0; }) != 1;
 }
 
+/// All of a model that a tree is made of.
+std::vector<double> numbers_of(const RobotModel& model) {
+  std::vector<double> numbers;
+  const auto add = [&](const auto& values) {
+    numbers.insert(numbers.end(), values.data(), values.data() + values.size());
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const Inertial& inertial = model.bodies[i].inertial;
+    numbers.insert(numbers.end(), {static_cast<double>(joint.parent),
+                                   static_cast<double>(joint.type), inertial.mass});
+    add(joint.X_parent_body.matrix());
+    add(joint.axis);
+    add(inertial.com);
+    add(inertial.inertia);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 struct InverseDynamics::Tree {
   explicit Tree(const RobotModel& model);
+  static std::shared_ptr<Tree> shared(const RobotModel& model);
   void add(const Joint& joint, const Body& body);
 
   id::MultiBodyTree bodies;
@@ -75,34 +96,53 @@ void InverseDynamics::Tree::add(const Joint& joint, const Body& body) {
   ++count;
 }
 
-InverseDynamics::InverseDynamics(const RobotModel& model) : tree_(std::make_unique<Tree>(model)) {
-  set_gravity({0.0, 0.0, -9.81});
+// What this thread has made a tree of, and the tree, while one of its users is left.
+std::shared_ptr<InverseDynamics::Tree> InverseDynamics::Tree::shared(const RobotModel& model) {
+  struct Known {
+    std::vector<double> numbers;
+    std::weak_ptr<Tree> tree;
+  };
+  thread_local std::vector<Known> all;
+  std::vector<double> numbers = numbers_of(model);
+  for (const Known& known : all)
+    if (known.numbers == numbers)
+      if (std::shared_ptr<Tree> tree = known.tree.lock()) return tree;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Known& known) { return known.tree.expired(); }),
+            all.end());
+  auto tree = std::make_shared<Tree>(model);
+  all.push_back({std::move(numbers), tree});
+  return tree;
 }
+
+InverseDynamics::InverseDynamics(const RobotModel& model)
+    : shared_(Tree::shared(model)),
+      made_by_(std::this_thread::get_id()),
+      own_(std::make_unique<Tree>(model)),
+      dof_(model.dof()) {}
 InverseDynamics::InverseDynamics(InverseDynamics&&) noexcept = default;
 InverseDynamics& InverseDynamics::operator=(InverseDynamics&&) noexcept = default;
 InverseDynamics::~InverseDynamics() = default;
 
-int InverseDynamics::dof() const noexcept {
-  return tree_->q.size();
-}
-
-void InverseDynamics::set_gravity(const Eigen::Vector3d& gravity_in_base) noexcept {
-  if (gravity_in_base == tree_->gravity) return;
-  tree_->gravity = gravity_in_base;
-  tree_->bodies.setGravityInWorldFrame(bullet_vector(gravity_in_base));
+InverseDynamics::Tree& InverseDynamics::tree() const noexcept {
+  return std::this_thread::get_id() == made_by_ ? *shared_ : *own_;
 }
 
 void InverseDynamics::torque(const Eigen::Ref<const Eigen::VectorXd>& q,
                              const Eigen::Ref<const Eigen::VectorXd>& qd,
                              const Eigen::Ref<const Eigen::VectorXd>& qdd,
                              Eigen::Ref<Eigen::VectorXd> torque) const noexcept {
-  Tree& tree = *tree_;
+  Tree& tree = this->tree();
   const int n = dof();
   assert(q.size() == n && qd.size() == n && qdd.size() == n && torque.size() == n);
   for (int i = 0; i < n; ++i) {
     tree.q(i) = static_cast<btScalar>(q[i]);
     tree.qd(i) = static_cast<btScalar>(qd[i]);
     tree.qdd(i) = static_cast<btScalar>(qdd[i]);
+  }
+  if (gravity_ != tree.gravity) {
+    tree.gravity = gravity_;
+    tree.bodies.setGravityInWorldFrame(bullet_vector(gravity_));
   }
   tree.bodies.calculateInverseDynamics(tree.q, tree.qd, tree.qdd, &tree.torque);
   for (int i = 0; i < n; ++i) torque[i] = tree.torque(i);
