@@ -1,3 +1,5 @@
+#include <functional>
+
 #include <gmock/gmock.h>
 
 #include "tests/allocation_guard.hpp"
@@ -323,6 +325,30 @@ TEST(Sequencer, DoesAnythingWithoutAllocating) {
     }
     EXPECT_EQ(guard.allocations(), 0) << to_string(method);
     EXPECT_TRUE(sequencer.sample().position.allFinite());
+  }
+}
+
+TEST(Sequencer, CountsChangesButNotSteps) {
+  Sequence sequence;
+  sequence.then(slow(Kind::discrete)).until(after(0.01)).then(slow(Kind::rhythmic));
+  Sequencer sequencer(sequence, Join::dmp3, Sample::at_rest(Eigen::Vector2d::Zero()));
+  const unsigned before = sequencer.changes();
+  for (int k = 0; k < 20; ++k) sequencer.step(1e-3);
+  EXPECT_EQ(sequencer.joins(), 2);
+  EXPECT_EQ(sequencer.changes(), before);
+  const std::vector<std::function<void()>> changes = {
+      [&] { sequencer.set_goal(Eigen::Vector2d(0.3, -0.2)); },
+      [&] { sequencer.set_tau(0.8); },
+      [&] { sequencer.set_amplitude(1.1); },
+      [&] { sequencer.set_rate(0.5, 0.1); },
+      [&] { sequencer.reinitialise(Sample::at_rest(Eigen::Vector2d::Ones())); },
+      [&] { sequencer.hand_over(); },
+      [&] { sequencer.append(sequence); },
+      [&] { sequencer.replace(sequence); }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const unsigned last = sequencer.changes();
+    changes[i]();
+    EXPECT_GT(sequencer.changes(), last) << i;
   }
 }
 

@@ -1,6 +1,5 @@
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "settings_check.hpp"
 #include "state_check.hpp"
@@ -11,6 +10,7 @@ namespace seam {
 
 namespace {
 
+constexpr int unknown = -1;        // joins so far
 constexpr double brake_tau = 0.5;  // [s]
 // Three time constants of the triple pole, so that no joint turns back [s].
 const double stopping_time = 3.0 * brake_tau / Gains().H;
@@ -43,7 +43,7 @@ ArmController::Tick tick_at(const RobotModel& model, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& qd) {
   require_one_each("controller: q", q, model.dof());
   require_one_each("controller: qd", qd, model.dof());
-  if (!finite(q, qd)) throw Error("controller", "the joints' state is not finite");
+  if (!(finite(q) && finite(qd))) throw Error("controller", "the joints' state is not finite");
   ArmController::Tick tick;
   tick.q = q;
   tick.qd = qd;
@@ -59,9 +59,11 @@ const ControlSettings& valid(const ControlSettings& settings) {
   return settings;
 }
 
-bool same_motion(const Sample& a, const Sample& b) {
-  return same(a.position, b.position) && same(a.velocity, b.velocity) &&
-         same(a.acceleration, b.acceleration);
+// All but the jerk, which the sequencer does not keep up to date.
+void take_over(const Sample& motion, Sample& into) {
+  into.position = motion.position;
+  into.velocity = motion.velocity;
+  into.acceleration = motion.acceleration;
 }
 
 }  // namespace
@@ -69,41 +71,39 @@ bool same_motion(const Sample& a, const Sample& b) {
 ArmController::ArmController(const RobotModel& model, const Sequence& sequence,
                              const JoinSettings& join, const ArmControllerSettings& settings,
                              const Eigen::VectorXd& q, const Eigen::VectorXd& qd)
-    : model_(model),
-      tick_(tick_at(model, q, qd)),
+    : tick_(tick_at(model, q, qd)),
+      next_(tick_.reference),
       joints_(reference(model, sequence, settings.tool, q)),
       sequencer_(sequence, join, joints_->measured(q, qd)),
+      law_(InverseDynamics(model), valid(settings.law)),
+      guard_(model, settings.guard, settings.sensor.delay),
+      offset_(model.dof()),
+      actuator_(model, settings.actuator),
+      sensor_(model, settings.sensor),
       brake_(rest_at(q)),
       coming_to_rest_(q),
-      law_(InverseDynamics(model), valid(settings.law)),
-      sensor_(model, settings.sensor),
-      guard_(model, settings.guard, settings.sensor.delay),
-      actuator_(model, settings.actuator),
       followers_(model),
-      offset_(model.dof()),
       taken_up_(sequencer_.sample()),
-      next_sequence_(taken_up_),
-      next_(tick_.reference),
       here_(tick_.reference),
-      goal_(sequencer_.goal()),
-      at_goal_(q) {
+      at_goal_(q),
+      model_(model) {
   here_.velocity = qd;
   begin_here();
-  tick_.sequence = next_sequence_;
+  tick_.sequence = sequencer_.sample();
   tick_.reference = next_;
 }
 
 // From what the sequence has the joints do now, and what they do: the difference fades.
 void ArmController::begin_here() noexcept {
-  next_sequence_ = sequencer_.sample();
-  joints_->find(next_sequence_, next_);
+  joints_->find(sequencer_.sample(), next_);
   law_.start(here_.velocity);
   guard_.restart(here_.position);
   here_.position -= next_.position;
   here_.velocity -= next_.velocity;
   offset_.start(here_.position, here_.velocity);
   offset_.add_to(next_);
-  goal_.setConstant(std::numeric_limits<double>::quiet_NaN());  // to be looked at by the new bounds
+  changes_ = sequencer_.changes();
+  joins_ = unknown;  // for the goal to be looked at by the new bounds
 }
 
 bool ArmController::reinitialise(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) noexcept {
@@ -111,7 +111,7 @@ bool ArmController::reinitialise(const Eigen::VectorXd& q, const Eigen::VectorXd
   here_.position = q;
   here_.velocity = qd;
   if (goal_beyond_limits().cause != Incident::Cause::none ||
-      !finite(here_.position, here_.velocity) ||
+      !(finite(here_.position) && finite(here_.velocity)) ||
       !joints_->take_up(here_.position, here_.velocity, taken_up_) ||
       !sequencer_.reinitialise(taken_up_))
     return false;
@@ -140,13 +140,12 @@ const Eigen::VectorXd& ArmController::tick(double dt, const Eigen::VectorXd& q,
 void ArmController::begin_tick() noexcept {
   tick_.time = sequencer_.time();
   tick_.running = sequencer_.running();
-  tick_.sequence.swap(next_sequence_);
+  take_over(sequencer_.sample(), tick_.sequence);
   tick_.reference.swap(next_);
-  look_at_goal();
-  if (!same_motion(sequencer_.sample(), tick_.sequence)) {  // it was changed since the last tick
-    tick_.sequence = sequencer_.sample();
-    follow(tick_.sequence, tick_.reference);
-  }
+  if (sequencer_.joins() != joins_ || sequencer_.changes() != changes_) look_at_goal();
+  if (sequencer_.changes() != changes_) follow(tick_.sequence, tick_.reference);
+  joins_ = sequencer_.joins();
+  changes_ = sequencer_.changes();
   tick_.tool_error = joints_->miss(tick_.sequence, tick_.q);
 }
 
@@ -165,8 +164,7 @@ void ArmController::watch(bool there) noexcept {
 
 // Before what it makes of the motion is taken over.
 void ArmController::look_at_goal() noexcept {
-  if (status_ == Status::stopped || same(goal_, sequencer_.goal())) return;
-  goal_ = sequencer_.goal();
+  if (status_ == Status::stopped) return;
   const Incident beyond = goal_beyond_limits();
   if (beyond.cause != Incident::Cause::none) stop(beyond);
 }
@@ -206,11 +204,10 @@ void ArmController::regain() noexcept {
 void ArmController::plan(double dt) noexcept {
   sequencer_.step(dt);
   offset_.advance(dt);
-  next_sequence_ = sequencer_.sample();
-  follow(next_sequence_, next_);
+  follow(sequencer_.sample(), next_);
   if (status_ != Status::stopped) return;
   brake_.step(dt);
-  next_ = brake_.sample();
+  take_over(brake_.sample(), next_);
 }
 
 void ArmController::command(double dt, bool there) noexcept {
@@ -218,7 +215,7 @@ void ArmController::command(double dt, bool there) noexcept {
     law_.torque(dt, q(), qd(), tick_.reference, next_.position, tick_.torque);
   else
     law_.torque(dt, tick_.reference, next_.position, tick_.torque);
-  if (!std::isfinite(tick_.torque.sum())) tick_.torque.setZero();
+  if (!finite(tick_.torque)) tick_.torque.setZero();
 }
 
 // The joints' reference for a sample of the sequence, or the end of following it.

@@ -47,13 +47,14 @@ const Eigen::VectorXd& ComputedTorque::plan(double dt, const Sample& now,
     if (!std::isnan(dt_)) matched_velocity_ += 0.5 * (dt_ - dt) * now.acceleration;
     dt_ = dt;
   }
-  next_velocity_ = (next - now.position) / dt;
+  const double per_tick = 1.0 / dt;
+  next_velocity_ = per_tick * (next - now.position);
   matched_velocity_.swap(next_velocity_);
   if (settings_.reference == ControlSettings::Reference::plain) {
     acceleration_ = now.acceleration;
     return now.velocity;
   }
-  acceleration_ = (matched_velocity_ - next_velocity_) / dt;
+  acceleration_ = per_tick * (matched_velocity_ - next_velocity_);
   return next_velocity_;
 }
 

@@ -58,12 +58,14 @@ std::string describe(const Incident& incident, const RobotModel& robot) {
 Guard::Guard(const RobotModel& model, const GuardSettings& settings, double delay)
     : settings_(settings),
       most_error_(settings.most_error.each(model.dof())),
-      lower_(model.dof()),
-      upper_(model.dof()),
-      slack_(model.dof()),
+      least_(model.dof()),
+      most_(model.dof()),
       seen_q_(Eigen::VectorXd::Zero(model.dof())),
       seen_qd_(seen_q_),
       reference_(seen_q_),
+      lower_(model.dof()),
+      upper_(model.dof()),
+      slack_(model.dof()),
       delay_(delay) {
   require_bound("guard: longest_dropout", settings.longest_dropout);
   require_bound("guard: frozen_beyond", settings.frozen_beyond);
@@ -83,8 +85,8 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings, double dela
 bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                    const Eigen::VectorXd& reference) noexcept {
   watched_ += dt;
-  const bool known = finite(q, qd);
   const bool stands = begun_ && same(q, seen_q_) && same(qd, seen_qd_);
+  const bool known = stands || (finite(q) && finite(qd));
   if (known && (!stands || watched_ < delay_ + 1.5 * dt)) {
     seen_q_ = q;
     seen_qd_ = qd;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double same_posture = 1e-6;  // [rad or m]
 constexpr double rounding = 1e-9;      // [rad or m]
+constexpr Eigen::Index held = -1;      // in place of the coordinate that moves a joint
 
 int tool_dimensions(const std::vector<std::string>& coordinates) {
   if (coordinates == std::vector<std::string>{"x", "y", "z"}) return 3;
@@ -52,7 +53,7 @@ void Followers::place(Eigen::VectorXd& position) const noexcept {
 }
 
 JointSpace::JointSpace(const RobotModel& robot, const std::vector<std::string>& coordinates)
-    : robot_(robot), coordinates_(coordinates), followers_(robot) {
+    : followers_(robot), all_(robot.joints) {
   for (const std::string& coordinate : coordinates) {
     joints_.push_back(robot.joint(coordinate));
     const Joint& joint = robot.joints[static_cast<std::size_t>(joints_.back())];
@@ -61,6 +62,9 @@ JointSpace::JointSpace(const RobotModel& robot, const std::vector<std::string>& 
                   "follows joint \"" + robot.joints[static_cast<std::size_t>(joint.leader)].name +
                       "\", a sequence must move that one");
   }
+  moved_by_.assign(static_cast<std::size_t>(robot.dof()), held);
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    moved_by_[static_cast<std::size_t>(joints_[c])] = static_cast<Eigen::Index>(c);
   held_.setZero(robot.dof());
 }
 
@@ -92,27 +96,23 @@ bool JointSpace::at_goal(const Eigen::Ref<const Eigen::VectorXd>& goal,
 }
 
 void JointSpace::require_reachable(const Primitive& primitive) {
-  for (std::size_t c = 0; c < primitive.coordinates.size(); ++c) {
-    const int i = robot_.joint(primitive.coordinates[c]);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
     const double goal = primitive.goal(static_cast<Eigen::Index>(c));
-    const Joint& moved = robot_.joints[static_cast<std::size_t>(i)];
+    const Joint& moved = all_[static_cast<std::size_t>(joints_[c])];
     require_within_limits(moved, goal, 0.0, "");
-    for (const Joint& joint : robot_.joints)
-      if (joint.leader == i)
+    for (const Joint& joint : all_)
+      if (joint.leader == joints_[c])
         require_within_limits(joint, joint.multiplier * goal + joint.offset, rounding,
                               " as it follows \"" + moved.name + "\"");
   }
 }
 
 bool JointSpace::find(const Sample& sample, Sample& joints) noexcept {
-  joints.position = held_;
-  joints.velocity.setZero();
-  joints.acceleration.setZero();
-  for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const auto d = static_cast<Eigen::Index>(c);
-    joints.position(joints_[c]) = sample.position(d);
-    joints.velocity(joints_[c]) = sample.velocity(d);
-    joints.acceleration(joints_[c]) = sample.acceleration(d);
+  for (Eigen::Index i = 0; i < held_.size(); ++i) {
+    const Eigen::Index c = moved_by_[static_cast<std::size_t>(i)];
+    joints.position(i) = c == held ? held_(i) : sample.position(c);
+    joints.velocity(i) = c == held ? 0.0 : sample.velocity(c);
+    joints.acceleration(i) = c == held ? 0.0 : sample.acceleration(c);
   }
   followers_.place(joints);
   return true;

@@ -21,12 +21,9 @@ const RobotModel& known(const RobotModel& all, const std::optional<RobotModel>& 
   return *model;
 }
 
-ArmController arm_of(const Robot& robot, const Sequence& sequence, const JoinSettings& join,
-                     const ControllerSettings& settings) {
-  const RobotModel& model = known(robot.model(), settings.model);
-  Eigen::VectorXd q(model.dof()), qd(model.dof());
+const Eigen::VectorXd& look(const Robot& robot, Eigen::VectorXd& q, Eigen::VectorXd& qd) {
   robot.state(q, qd);
-  return ArmController(model, sequence, join, settings, q, qd);
+  return q;
 }
 
 // Moves nothing: see apply_torque.
@@ -45,10 +42,11 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
                        const ControllerSettings& settings)
     : robot_(robot),
       claim_(robot),
-      arm_(arm_of(robot, sequence, join, settings)),
-      q_(arm_.last_tick().q),
-      qd_(arm_.last_tick().qd),
-      applied_(Eigen::VectorXd::Zero(arm_.dof())) {}
+      q_(Eigen::VectorXd::Zero(known(robot.model(), settings.model).dof())),
+      qd_(q_),
+      applied_(q_),
+      arm_(known(robot.model(), settings.model), sequence, join, settings, look(robot, q_, qd_),
+           qd_) {}
 
 Controller::~Controller() {
   if (plugin_) plugin_->remove(*this);
@@ -72,11 +70,12 @@ void Controller::pre_tick(double dt) noexcept {
 void Controller::apply_torque(const Eigen::VectorXd& torque) noexcept {
   btMultiBody& multibody = robot_.multibody();
   const bool still_stands = marked_ && multibody.getBaseTorque().x() == base_torque_;
-  if (!still_stands) applied_.setZero();
-  for (int i = 0; i < torque.size(); ++i)
-    multibody.getLink(i).m_jointTorque[0] += static_cast<btScalar>(torque(i) - applied_(i));
+  for (int i = 0; i < torque.size(); ++i) {
+    const double applied = still_stands ? applied_(i) : 0.0;
+    multibody.getLink(i).m_jointTorque[0] += static_cast<btScalar>(torque(i) - applied);
+    applied_(i) = torque(i);
+  }
   if (!still_stands) multibody.addBaseTorque(btVector3(btScalar(mark), 0, 0));
-  applied_ = torque;
   base_torque_ = multibody.getBaseTorque().x();
   marked_ = true;
 }

@@ -81,6 +81,7 @@ void Sequencer::push(const Sequence& sequence) {
 
 void Sequencer::append(const Sequence& sequence) {
   push(sequence);
+  ++changes_;
   if (!finished_) return;
   finished_ = false;
   switch_over();
@@ -159,6 +160,7 @@ bool Sequencer::near_goal() const noexcept {
 }
 
 bool Sequencer::hand_over() noexcept {
+  ++changes_;
   if (finished_) return false;
   switch_over();
   rescale();
@@ -203,12 +205,14 @@ void Sequencer::join_to(Execution& next, double phase, int primitive) noexcept {
 }
 
 bool Sequencer::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {
+  ++changes_;
   const bool done = running_ >= 0 && now().set_goal(goal);
   rescale();
   return done;
 }
 
 bool Sequencer::set_tau(double tau) noexcept {
+  ++changes_;
   if (running_ < 0 || !now().set_tau(tau)) return false;
   if (!finished_) update_due();
   rescale();
@@ -216,18 +220,21 @@ bool Sequencer::set_tau(double tau) noexcept {
 }
 
 bool Sequencer::set_rate(double rate, double over) noexcept {
+  ++changes_;
   const bool done = scale_.change(rate, over);
   rescale();
   return done;
 }
 
 bool Sequencer::set_amplitude(double amplitude) noexcept {
+  ++changes_;
   const bool done = running_ >= 0 && now().set_amplitude(amplitude);
   rescale();
   return done;
 }
 
 bool Sequencer::reinitialise(const Sample& at) noexcept {
+  ++changes_;
   if (!usable(at, dimensions())) return false;
   scale_ = TimeScale();
   if (running_ < 0)

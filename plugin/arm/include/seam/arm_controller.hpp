@@ -135,27 +135,28 @@ class ArmController {
   void stop_here(const Incident& incident) noexcept;
   void brake_from(const Sample& from) noexcept;
 
-  RobotModel model_;
+  // What every tick touches comes first, so that it lies together.
   Tick tick_;
+  Sample next_;  // n, the reference at the end of the tick
   std::unique_ptr<JointReference> joints_;
   Sequencer sequencer_;
+  ComputedTorque law_;
+  Guard guard_;
+  int joins_ = 0;         // of the sequencer, when its goal was looked at
+  unsigned changes_ = 0;  // likewise, when the reference was found
+  Status status_ = Status::following;
+  bool blind_ = false;   // there was no state in the last tick
+  FadingOffset offset_;  // of the reference from what the sequence asks for
+  Actuator actuator_;
+  Sensor sensor_;
   Execution brake_;                 // n joints; leads to rest
   Eigen::VectorXd coming_to_rest_;  // n
-  ComputedTorque law_;
-  Sensor sensor_;
-  Guard guard_;
-  Actuator actuator_;
   Followers followers_;
-  FadingOffset offset_;      // of the reference from what the sequence asks for
   Sample taken_up_;          // of the sequence, that it was re-initialised with
-  Sample next_sequence_;     // at the end of the tick
-  Sample next_;              // n, the reference then
   Sample here_;              // n, the joints' state
-  Eigen::VectorXd goal_;     // of the sequence, the last that was looked at
   Eigen::VectorXd at_goal_;  // n
-  Status status_ = Status::following;
-  bool blind_ = false;  // there was no state in the last tick
   Incident incident_;
+  RobotModel model_;
 };
 
 }  // namespace seam

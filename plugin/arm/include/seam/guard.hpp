@@ -74,11 +74,11 @@ class Guard {
  private:
   GuardSettings settings_;
   Eigen::VectorXd most_error_;        // n
-  Eigen::VectorXd lower_, upper_;     // n, the joints' limits
-  Eigen::VectorXd slack_;             // n, by which they may be passed
   Eigen::VectorXd least_, most_;      // n, what the reference may be
   Eigen::VectorXd seen_q_, seen_qd_;  // n, the last state that was new
   Eigen::VectorXd reference_;         // n, then
+  Eigen::VectorXd lower_, upper_;     // n, the joints' limits
+  Eigen::VectorXd slack_;             // n, by which they may be passed
   double delay_;
   double watched_ = 0.0;  // [s] since the restart
   bool begun_ = false;

@@ -78,11 +78,11 @@ class JointSpace final : public JointReference {
   ToolError miss(const Sample&, const Eigen::VectorXd&) noexcept override { return {}; }
 
  private:
-  RobotModel robot_;
-  std::vector<std::string> coordinates_;
-  std::vector<Eigen::Index> joints_;  // of each coordinate
-  Eigen::VectorXd held_;              // n, where the joints were that are not named
+  std::vector<Eigen::Index> moved_by_;  // n, the coordinate that moves each joint, or none
+  Eigen::VectorXd held_;                // n, where the joints were that are not named
   Followers followers_;
+  std::vector<Eigen::Index> joints_;  // of each coordinate
+  std::vector<Joint> all_;            // n
 };
 
 /// The tool that a task-space sequence moves, and the joints' posture while it does.

@@ -69,10 +69,10 @@ class Sensor {
   void disturb() noexcept;
   const Dropout* dropout() const noexcept;
 
+  bool ideal_;
   double delay_;
   Eigen::VectorXd resolution_, position_noise_, velocity_noise_;
   std::vector<Dropout> dropouts_;
-  bool ideal_;
   Noise noise_;
   std::vector<Seen> past_;  // a ring; empty without a delay
   int latest_ = -1;

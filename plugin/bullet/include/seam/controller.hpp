@@ -88,12 +88,12 @@ class Controller {
 
   Robot& robot_;
   Claim claim_;
-  ArmController arm_;
-  Eigen::VectorXd q_, qd_;    // n, the robot's state
   double base_torque_ = 0.0;  // [N·m] on the base, as we left it
   bool marked_ = false;
-  Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody
   Plugin* plugin_ = nullptr;
+  Eigen::VectorXd q_, qd_;   // n, the robot's state
+  Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody
+  ArmController arm_;
 };
 
 }  // namespace seam

@@ -78,7 +78,7 @@ class Sequencer {
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
   double rate() const noexcept { return scale_.rate(); }  // of the sequence's time to real time
   /// Goal of what runs now, or runs first.
-  Eigen::VectorXd::ConstSegmentReturnType goal() const noexcept {
+  Eigen::Map<const Eigen::VectorXd> goal() const noexcept {
     return running_ < 0 ? items_.front().execution.goal() : now().goal();
   }
   int running() const noexcept {
@@ -86,6 +86,9 @@ class Sequencer {
   }  // index of the primitive; -1 while still waiting
   double phase() const noexcept { return running_ < 0 ? 0.0 : now().phase(); }  // x or φ
   bool finished() const noexcept { return finished_; }  // the last switch has been due
+  /// Grows with every change that anything but `step` makes: when it is what it was, the motion and its goal are what the
+  /// last step left.
+  unsigned changes() const noexcept { return changes_; }
   int dimensions() const noexcept { return static_cast<int>(start_.position.size()); }  // D
   /// Joins so far, the start included.
   int joins() const noexcept { return joins_; }
@@ -134,6 +137,7 @@ class Sequencer {
   int first_ = 0;
   int first_join_ = 0;
   int joins_ = 0;
+  unsigned changes_ = 0;
   TimeScale scale_;
   Sample scaled_;             // the motion in real time, where that is another
   CompensatedSum behind_;     // [s] of the motion's time behind real time
