@@ -5,6 +5,7 @@ packages := g++ ccache mold cmake ninja-build pkg-config xz-utils libeigen3-dev 
 tools := clang-format clang-tidy
 testing := chromium doxygen dpkg-dev file libmujoco-dev
 documenting := doxygen
+measuring := valgrind
 fuzzing := clang libclang-rt-dev
 sources = $(shell find plugin scenes bench tests -name '*.[ch]pp')
 .PHONY: help bench test debug asan tsan fuzz format tidy micro docs meshes page readme clean
@@ -24,14 +25,15 @@ fuzz: build/fuzzing build/fuzz/build.ninja ## feed the readers with nonsense (li
 	cmake --build --preset fuzz && sh tests/fuzz/run.sh build/fuzz $(or $(SECONDS),600)
 format: build/tools ; @clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources) ## check the layout of the C++ sources (FIX=1: put it right)
 tidy: build/tools build/release/build.ninja ; run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$' ## check the C++ sources
-micro: build/release/build.ninja       ## measure the hot paths, each beside something bare, and print their ratios
-	cmake --build --preset release --target seam_micro && build/release/bench/seam_micro --out build/micro.md
+micro: build/measuring build/release/build.ninja ## measure the hot paths, each beside something bare, and print their ratios
+	cmake --build --preset release --target seam_micro seam_touched && build/release/bench/seam_micro --out build/micro.md
+	sh bench/micro/touched.sh build/release/bench/seam_touched >>build/micro.md && tail -n 1 build/micro.md
 docs: build/documenting ; @sh plugin/guide/reference.sh build/docs ## make the reference and the guide: build/docs/html/index.html
 meshes page:                           ## make the arm's meshes, or the report page's template, anew (needs Node.js)
 	cd $(if $(filter page,$@),bench/page,assets/pa10/source) && npm ci && npm run $@
 readme: bench micro ; bash bench/readme.sh ## put the figures of bench, micro and experiments into the READMEs
 clean: ; rm -rf build results          ## remove what was built
-build/packages build/tools build/testing build/documenting build/fuzzing: Makefile
+build/packages build/tools build/testing build/documenting build/measuring build/fuzzing: Makefile
 	@sh .ci/install-packages.sh $@.log $($(@F)) && mkdir -p build && touch $@
 build/setup: build/packages
 	@sh plugin/cmake/bullet-headers.sh build/bullet-headers && touch $@

@@ -31,14 +31,6 @@ Primitive reach(const std::vector<std::string>& coordinates, const Eigen::Vector
   return learn(Demonstration::from_positions(coordinates, time, position));
 }
 
-// A tick is timed many times at one state, which is no dropout here.
-GuardSettings unconcerned() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  GuardSettings guard;
-  guard.most_error = guard.longest_dropout = guard.frozen_beyond = infinity;
-  return guard;
-}
-
 Sequence there_and_back(const Primitive& there, const Primitive& back) {
   Sequence sequence;
   sequence.then(there).until(before_end(0.3)).then(back);
@@ -77,6 +69,15 @@ Movement tool_movement() {
   return {there_and_back(there, back), start(), settings};
 }
 
+// A tick is timed many times at one state, which is no dropout here.
+ControllerSettings settings_for(const Movement& movement) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  ControllerSettings settings({}, movement.tool);
+  settings.guard.most_error = settings.guard.longest_dropout = settings.guard.frozen_beyond =
+      infinity;
+  return settings;
+}
+
 Arms::Arms(int count, const Movement& movement, Join join) : movement_(movement), join_(join) {
   for (int i = 0; i < count; ++i) {
     RobotSettings settings;
@@ -87,8 +88,7 @@ Arms::Arms(int count, const Movement& movement, Join join) : movement_(movement)
 }
 
 void Arms::restart() {
-  ControllerSettings settings({}, movement_.tool);
-  settings.guard = unconcerned();
+  const ControllerSettings settings = settings_for(movement_);
   plugin_ = std::make_unique<Plugin>(*world_);
   for (const auto& arm : arms_) {
     arm->controller.reset();

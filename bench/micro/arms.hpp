@@ -23,6 +23,9 @@ struct Movement {
 Movement joint_movement();
 Movement tool_movement();
 
+/// A controller's settings for a movement, with a guard that stops nothing.
+ControllerSettings settings_for(const Movement& movement);
+
 /// PA-10s in one world, too far apart to meet, which all make the same movement.
 class Arms {
  public:
@@ -32,6 +35,8 @@ class Arms {
   void restart();
   /// The ticks of all controllers, nothing of Bullet's.
   void tick() noexcept;
+  /// The tick of one.
+  void tick(int arm) noexcept { arms_[static_cast<std::size_t>(arm)]->controller->pre_tick(dt); }
   /// Bullet's step with the plug-in.
   void step();
   /// Bullet's step without it, which goes until `restart`, with torques for the joints of each arm.

@@ -1,5 +1,6 @@
 // Cost of a controller's tick of the PA-10 beside one bare call of Bullet's inverse dynamics, on the states of a movement.
 
+#include <functional>
 #include <memory>
 
 #include <BulletInverseDynamics/MultiBodyTree.hpp>
@@ -16,6 +17,7 @@ namespace {
 namespace id = btInverseDynamics;
 
 constexpr int ticks = 100;  // at one state
+constexpr Join join = Join::dmp3;
 
 id::vec3 bullet(const Eigen::Vector3d& v) {
   return id::vec3(btVector3(v.x(), v.y(), v.z()));
@@ -61,17 +63,23 @@ class BareDynamics {
   id::vecx q_, qd_, qdd_, torque_;
 };
 
-Pair tick(const Movement& movement, Join join) {
-  const auto arm = std::make_shared<Arms>(1, movement, join);
+/// Something that is done at the states of a movement.
+struct Work {
+  std::function<void()> restart;
+  std::function<void(const Controller::Tick&)> move_to;
+  std::function<void()> once;
+};
+
+Pair beside_bare(const Movement& movement, const Work& work) {
   const auto bare = std::make_shared<BareDynamics>(pa10());
   const auto go_on = [=, states = played(movement, join), k = std::size_t{0}]() mutable {
     k = k + ticks < states.size() ? k + ticks : 0;
-    if (k == 0) arm->restart();
-    arm->place(states[k].q, states[k].qd);
+    if (k == 0) work.restart();
+    work.move_to(states[k]);
     bare->move_to(states[k]);
   };
   return {timed([=] {
-            for (int i = 0; i < ticks; ++i) arm->tick();
+            for (int i = 0; i < ticks; ++i) work.once();
           }),
           timed([=] {
             for (int i = 0; i < ticks; ++i) bare->calculate();
@@ -79,14 +87,89 @@ Pair tick(const Movement& movement, Join join) {
           ticks, go_on};
 }
 
+Work controller(const Movement& movement, Join method) {
+  const auto arm = std::make_shared<Arms>(1, movement, method);
+  return {[=] { arm->restart(); }, [=](const Controller::Tick& at) { arm->place(at.q, at.qd); },
+          [=] { arm->tick(); }};
+}
+
+// What a controller's tick consists of, from within.
+
+Work arm_controller(const Movement& movement) {
+  struct Arm {
+    std::unique_ptr<ArmController> controller;
+    Eigen::VectorXd q, qd;
+  };
+  const auto arm = std::make_shared<Arm>();
+  const auto restart = [=] {
+    arm->q = movement.start;
+    arm->qd.setZero(arm->q.size());
+    arm->controller = std::make_unique<ArmController>(pa10(), movement.sequence, join,
+                                                      settings_for(movement), arm->q, arm->qd);
+  };
+  restart();
+  return {restart,
+          [=](const Controller::Tick& at) {
+            arm->q = at.q;
+            arm->qd = at.qd;
+          },
+          [=] { benchmark::DoNotOptimize(arm->controller->tick(dt, arm->q, arm->qd).data()); }};
+}
+
+Work law() {
+  struct Law {
+    ComputedTorque law{InverseDynamics(pa10()), {}};
+    Controller::Tick at;
+    Eigen::VectorXd next, torque;
+  };
+  const auto law = std::make_shared<Law>();
+  return {[] {},
+          [=](const Controller::Tick& at) {
+            law->at = at;
+            law->next = at.reference.position + dt * at.reference.velocity;
+            law->torque = at.torque;
+            law->law.start(at.qd);
+          },
+          [=] {
+            law->law.torque(dt, law->at.q, law->at.qd, law->at.reference, law->next, law->torque);
+            benchmark::DoNotOptimize(law->torque.data());
+          }};
+}
+
+Work dynamics() {
+  struct Dynamics {
+    InverseDynamics dynamics{pa10()};
+    Controller::Tick at;
+  };
+  const auto dynamics = std::make_shared<Dynamics>();
+  return {[] {}, [=](const Controller::Tick& at) { dynamics->at = at; },
+          [=] {
+            Controller::Tick& at = dynamics->at;
+            dynamics->dynamics.torque(at.q, at.qd, at.reference.acceleration, at.torque);
+            benchmark::DoNotOptimize(at.torque.data());
+          }};
+}
+
+void add(const std::string& what, double bar, int pairs, const Movement& movement,
+         const std::function<Work()>& work) {
+  add_pair(what + " / bare inverse dynamics", bar, pairs,
+           [=] { return beside_bare(movement, work()); });
+}
+
 }  // namespace
 
 void add_tick_benchmarks() {
-  for (const Join join : all_joins)
-    add_pair("control tick, " + std::string(to_string(join)) + " / bare inverse dynamics", 1.3,
-             5000, [join] { return tick(joint_movement(), join); });
-  add_pair("control tick in task space, dmp3 / bare inverse dynamics", no_bar, 1000,
-           [] { return tick(tool_movement(), Join::dmp3); });
+  constexpr int pairs = 5000;
+  const Movement joints = joint_movement();
+  const Movement tool = tool_movement();
+  for (const Join method : all_joins)
+    add("control tick, " + std::string(to_string(method)), 1.3, pairs, joints,
+        [=] { return controller(joints, method); });
+  add("of it, the arm's controller without Bullet's multibody", no_bar, pairs, joints,
+      [=] { return arm_controller(joints); });
+  add("of that, the control law", no_bar, pairs, joints, law);
+  add("of that, the inverse dynamics by seam's class", no_bar, pairs, joints, dynamics);
+  add("control tick in task space, dmp3", 5.0, 1000, tool, [=] { return controller(tool, join); });
 }
 
 }  // namespace seam::micro
