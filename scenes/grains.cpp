@@ -108,7 +108,7 @@ StandingVessel::StandingVessel(btMultiBodyDynamicsWorld& world,
                                const Eigen::Isometry3d& X_world_vessel,
                                const VesselSettings& vessel)
     : parts_(new Parts{world, X_world_vessel.inverse(), vessel,
-                       make_shape(walls(vessel), Eigen::Isometry3d::Identity()), nullptr}) {
+                       make_shape(walls(vessel), Eigen::Isometry3d::Identity(), 0.0), nullptr}) {
   parts_->body = body(0.0, *parts_->shape.compound, X_world_vessel);
   world.addRigidBody(parts_->body.get());
 }

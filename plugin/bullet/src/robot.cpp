@@ -1,10 +1,11 @@
 #include <cassert>
+#include <cmath>
 #include <optional>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "bullet_types.hpp"
+#include "link_collider.hpp"
 #include "multibody.hpp"
 #include "shapes.hpp"
 #include "text.hpp"
@@ -35,6 +36,11 @@ void warn_of_small_inertia(RobotModel& model) {
   }
 }
 
+void require_tolerance(double tolerance) {
+  if (!(std::isfinite(tolerance) && tolerance >= 0.0))
+    throw Error("hull_tolerance", text(tolerance, " m, must be finite and >= 0"));
+}
+
 }  // namespace
 
 struct Robot::Parts {
@@ -45,6 +51,7 @@ struct Robot::Parts {
 
   void add_collider(int link, const Body& body, const LinkFrame& frame,
                     const RobotSettings& settings);
+  void find_what_never_meets();
   void add_to_world();
   void place_colliders();
 
@@ -53,7 +60,7 @@ struct Robot::Parts {
   std::vector<LinkFrame> frames;
   std::vector<BodyShape> shapes;
   std::unique_ptr<btMultiBody> multibody;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
+  std::vector<std::unique_ptr<LinkCollider>> colliders;
   btAlignedObjectArray<btQuaternion> rotations;  // workspaces of place_colliders
   btAlignedObjectArray<btVector3> origins;
   std::optional<WorldWatch> watch;
@@ -64,6 +71,7 @@ Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
                     const RobotSettings& settings)
     : model(std::move(robot_model)), world(in_world) {
   require_one_precision();
+  require_tolerance(settings.hull_tolerance);
   warn_of_small_inertia(model);
   for (const Body& body : model.bodies) frames.push_back(link_frame(body.inertial));
   multibody = make_multibody(model, frames);
@@ -74,6 +82,7 @@ Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
     for (std::size_t i = 0; i < model.bodies.size(); ++i) {
       add_collider(static_cast<int>(i), model.bodies[i], frames[i], settings);
     }
+    if (settings.self_collision) find_what_never_meets();
   }
   add_to_world();
 }
@@ -87,15 +96,32 @@ Robot::Parts::~Parts() {
 void Robot::Parts::add_collider(int link, const Body& body, const LinkFrame& frame,
                                 const RobotSettings& settings) {
   if (body.collisions.empty()) return;
-  shapes.push_back(make_shape(body.collisions, frame.X_body_link));
-  colliders.push_back(std::make_unique<btMultiBodyLinkCollider>(multibody.get(), link));
-  btMultiBodyLinkCollider& collider = *colliders.back();
+  shapes.push_back(make_shape(body.collisions, frame.X_body_link, settings.hull_tolerance));
+  colliders.push_back(std::make_unique<LinkCollider>(model, *multibody, link, world));
+  LinkCollider& collider = *colliders.back();
   collider.setCollisionShape(shapes.back().compound.get());
   collider.setFriction(static_cast<btScalar>(settings.friction));
   if (link < 0) {
     multibody->setBaseCollider(&collider);
   } else {
     multibody->getLink(link).m_collider = &collider;
+  }
+}
+
+void Robot::Parts::find_what_never_meets() {
+  std::vector<CollidingBody> bodies;
+  for (std::size_t k = 0; k < colliders.size(); ++k) {
+    const int link = colliders[k]->m_link;
+    const LinkFrame frame = link < 0 ? LinkFrame() : frames[static_cast<std::size_t>(link)];
+    bodies.push_back({link, &shapes[k], frame.X_body_link});
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const auto joints = two_joints_between(model, bodies[a].link, bodies[b].link);
+      if (!joints || !never_meet(model, bodies[a], bodies[b], *joints)) continue;
+      colliders[a]->never_meets(*colliders[b], *joints);
+      colliders[b]->never_meets(*colliders[a], *joints);
+    }
   }
 }
 
