@@ -78,11 +78,12 @@ ControllerSettings settings_for(const Movement& movement) {
   return settings;
 }
 
-Arms::Arms(int count, const Movement& movement, Join join) : movement_(movement), join_(join) {
+Arms::Arms(int count, const Movement& movement, Join join, const RobotModel& model)
+    : movement_(movement), join_(join) {
   for (int i = 0; i < count; ++i) {
     RobotSettings settings;
     settings.X_world_base.translation() << apart * (i % in_a_row), apart * (i / in_a_row), 0.0;
-    arms_.push_back(std::make_unique<Arm>(pa10(), settings, world_));
+    arms_.push_back(std::make_unique<Arm>(model, settings, world_));
   }
   restart();
 }

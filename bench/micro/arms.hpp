@@ -26,10 +26,10 @@ Movement tool_movement();
 /// A controller's settings for a movement, with a guard that stops nothing.
 ControllerSettings settings_for(const Movement& movement);
 
-/// PA-10s in one world, too far apart to meet, which all make the same movement.
+/// PA-10s (or what else moves as they do) in one world, too far apart to meet, which all make the same movement.
 class Arms {
  public:
-  Arms(int count, const Movement& movement, Join join);
+  Arms(int count, const Movement& movement, Join join, const RobotModel& model = pa10());
 
   /// At the beginning of the movement.
   void restart();

@@ -1,10 +1,12 @@
-// Cost of a world's step with the plug-in beside without, the arms moving alike; and of each of many arms beside one alone.
+// Cost of a world's step with the plug-in beside without, the arms moving alike; with meshes that collide beside boxes and
+// cylinders; and of each of many arms beside one alone.
 
 #include <algorithm>
 #include <memory>
 
 #include "bench/micro/arms.hpp"
 #include "bench/micro/benchmarks.hpp"
+#include "bench/micro/mesh_arm.hpp"
 #include "bench/micro/pair.hpp"
 
 namespace seam::micro {
@@ -16,7 +18,8 @@ constexpr Join join = Join::dmp3;
 /// Arms that make the movement again and again, a tick at a time.
 class Play {
  public:
-  explicit Play(int count) : arms_(count, joint_movement(), join) {}
+  explicit Play(int count, const RobotModel& model = pa10())
+      : arms_(count, joint_movement(), join, model) {}
 
   void with_plugin(int ticks) {
     for (int k = 0; k < ticks; ++k) arms_.step();
@@ -59,6 +62,17 @@ Pair with_and_without() {
           }};
 }
 
+Pair meshes_and_primitives() {
+  constexpr int together = 20;
+  const auto meshes = std::make_shared<Play>(1, mesh_arm());
+  const auto primitives = std::make_shared<Play>(1);
+  return {ticks(meshes, &Play::without_plugin, together),
+          ticks(primitives, &Play::without_plugin, together), together, [=] {
+            meshes->go_on(together);
+            primitives->go_on(together);
+          }};
+}
+
 Pair many_and_one(Ticks kind, int count) {
   const int together = std::max(1, 32 / count);
   const auto many = std::make_shared<Play>(count);
@@ -74,6 +88,8 @@ Pair many_and_one(Ticks kind, int count) {
 
 void add_world_benchmarks() {
   add_pair("world step with the plug-in / without, same torques", no_bar, 3000, with_and_without);
+  add_pair("world step, meshes as colliders / boxes and cylinders", 1.33, 3000,
+           meshes_and_primitives);
   struct Kind {
     std::string name;
     Ticks ticks;
