@@ -14,9 +14,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Line = Eigen::ParametrizedLine<double, 3>;
 
-constexpr double apart = 0.02;                // [m]
-constexpr double beyond_limits = 0.01;        // [rad or m]
-constexpr std::size_t most_distances = 3000;  // of parts
+constexpr double apart = 0.02;          // [m]
+constexpr double beyond_limits = 0.01;  // [rad or m]
+constexpr int most_distances = 3000;    // of parts
 
 const Joint& joint_of(const RobotModel& model, int link) {
   return model.joints[static_cast<std::size_t>(link)];
@@ -44,7 +44,9 @@ Distance distance(const btConvexShape& a, const btConvexShape& b, const btTransf
 }
 
 /// The smaller bounds of all pairs of parts, or that they are `far` apart or more.
-Distance distance(const BodyShape& a, const BodyShape& b, const btTransform& X_a_b, btScalar far) {
+/// @param count  is raised by the number of distances of parts that were needed
+Distance distance(const BodyShape& a, const BodyShape& b, const btTransform& X_a_b, btScalar far,
+                  int& count) {
   Distance least;
   least.at_least = far;
   for (std::size_t i = 0; i < a.parts.size(); ++i) {
@@ -52,6 +54,7 @@ Distance distance(const BodyShape& a, const BodyShape& b, const btTransform& X_a
     for (std::size_t j = 0; j < b.parts.size(); ++j) {
       const btTransform X = X_part_b * b.pose(j);
       if (between_spheres(*a.parts[i], *b.parts[j], X) >= least.at_least) continue;
+      ++count;
       const Distance of_parts = distance(*a.parts[i], *b.parts[j], X, least.at_least);
       least.at_least = std::min(least.at_least, of_parts.at_least);
       least.at_most = std::min(least.at_most, of_parts.at_most);
@@ -133,11 +136,11 @@ class Proof {
     const Isometry3d X_a_over = first_moves_a_ ? first_.X_parent_body_at(cell.centre(0)).inverse()
                                                : first_.X_parent_body_at(cell.centre(0));
     const Isometry3d X_a_b = X_a_over * second_.X_parent_body_at(cell.centre(1));
-    distances_ += a_.shape->parts.size() * b_.shape->parts.size();
     const double moved = reach_.dot(cell.half);
     const auto far = static_cast<btScalar>(apart + moved);
-    const Distance at_centre = distance(
-        *a_.shape, *b_.shape, bullet_pose(a_.X_body_link.inverse() * X_a_b * b_.X_body_link), far);
+    const Distance at_centre =
+        distance(*a_.shape, *b_.shape,
+                 bullet_pose(a_.X_body_link.inverse() * X_a_b * b_.X_body_link), far, distances_);
     cell.at_least = at_centre.at_least - moved;
     if (at_centre.at_least < far) cells_.push(cell);
     return at_centre.at_most > apart;
@@ -148,7 +151,7 @@ class Proof {
   const bool first_moves_a_;  // as the branches of a tree are moved; else it moves the body between
   const Vector2d reach_;
   std::priority_queue<Cell> cells_;
-  std::size_t distances_ = 0;
+  int distances_ = 0;
 };
 
 }  // namespace
