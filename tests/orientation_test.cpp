@@ -48,6 +48,21 @@ TEST(Orientation, RotationVectorsComeBack) {
   }
 }
 
+TEST(Orientation, RotationVectorsOfMatricesAreThoseOfQuaternions) {
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = std::pow(10.0, uniform(random, -12.0, 0.49));
+    const Vector3d rho = angle * random_vector(random, 1.0).normalized();
+    const Quaterniond q0 = random_orientation(random);
+    const Eigen::Matrix3d turned = orientation(rho, Quaterniond::Identity()).toRotationMatrix();
+    EXPECT_LT((rotation_vector(turned, Eigen::Matrix3d::Identity()) - rho).norm(), 1e-14 * angle)
+        << "seed " << seed << ", angle " << angle;
+    const Eigen::Matrix3d R0 = q0.toRotationMatrix();
+    EXPECT_LT((rotation_vector(turned * R0, R0) - rho).norm(), 2e-15 + 1e-14 * angle)
+        << "seed " << seed << ", angle " << angle;
+  }
+}
+
 TEST(Orientation, OrientationsComeBack) {
   std::mt19937_64 random(seed + 1);
   for (int i = 0; i < 2000; ++i) {

@@ -16,7 +16,9 @@ using Eigen::Vector3d;
 constexpr double norm_tolerance = 1e-3;
 constexpr double beyond = M_PI + 1e-9;  // [rad] a half turn itself is still within
 constexpr double no_turn = 1e-100;      // below it squares would underflow
-constexpr double same_angle = 1e-8;     // [rad] between references that are one
+constexpr double alike =
+    1e-3;  // squared sine from which on the series of the arc sine would be too short
+constexpr double same_angle = 1e-8;  // [rad] between references that are one
 constexpr std::array<const char*, 3> axes{"rx", "ry", "rz"};
 
 // With θ² = u: b = (1 − cos θ)/u, c = (θ − sin θ)/θ³ and their slopes b'/θ, c'/θ.
@@ -24,16 +26,33 @@ struct Coefficients {
   double b, c, b_slope, c_slope;
 };
 
+constexpr int terms = 12;
+
+// Of a term over the one before.
+struct Ratios {
+  double b[terms], c[terms];
+};
+
+constexpr Ratios ratios() noexcept {
+  Ratios r{};
+  for (int k = 1; k <= terms; ++k) {
+    r.b[k - 1] = -1.0 / ((2.0 * k + 1.0) * (2.0 * k + 2.0));
+    r.c[k - 1] = 1.0 / (2.0 * k + 3.0);
+  }
+  return r;
+}
+
 Coefficients series(double u) noexcept {
+  constexpr Ratios ratio = ratios();
   Coefficients sum{0.5, 1.0 / 6.0, 0.0, 0.0};
   double term = 0.5;
-  for (int k = 1; k <= 12; ++k) {
-    const double slope = -term / ((2.0 * k + 1.0) * (2.0 * k + 2.0));
+  for (int k = 1; k <= terms; ++k) {
+    const double slope = ratio.b[k - 1] * term;
     term = slope * u;
     sum.b += term;
-    sum.c += term / (2.0 * k + 3.0);
+    sum.c += ratio.c[k - 1] * term;
     sum.b_slope += 2.0 * k * slope;
-    sum.c_slope += 2.0 * k * slope / (2.0 * k + 3.0);
+    sum.c_slope += 2.0 * k * ratio.c[k - 1] * slope;
   }
   return sum;
 }
@@ -170,6 +189,15 @@ std::string text_of(const std::optional<Quaterniond>& q) {
 Vector3d rotation_vector(const Quaterniond& q, const Quaterniond& q0) noexcept {
   const Quaterniond turned = q * q0.conjugate();
   return signed_vector(with_sign(turned.w(), turned));
+}
+
+Vector3d rotation_vector(const Eigen::Matrix3d& R, const Eigen::Matrix3d& R0) noexcept {
+  Vector3d sine = Vector3d::Zero();  // of the angle, along the axis
+  for (Eigen::Index k = 0; k < 3; ++k) sine += 0.5 * R0.col(k).cross(R.col(k));
+  const double s = sine.squaredNorm();
+  const bool less_than_right = R.cwiseProduct(R0).sum() > 1.0;
+  if (!(s < alike && less_than_right)) return rotation_vector(Quaterniond(R), Quaterniond(R0));
+  return (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (5.0 / 112.0 + s * 35.0 / 1152.0)))) * sine;
 }
 
 Quaterniond orientation(const Vector3d& vector, const Quaterniond& q0) noexcept {

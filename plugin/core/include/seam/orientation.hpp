@@ -38,6 +38,8 @@ struct OrientationState {
 /// same.
 /// @param q, q0  unit quaternions
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& q, const Eigen::Quaterniond& q0) noexcept;
+/// The same of rotation matrices, R·R₀ᵀ; quick where they are alike.
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R, const Eigen::Matrix3d& R0) noexcept;
 /// exp(ρ)·q₀, for ρ [rad] of any length; the inverse of rotation_vector within π.
 Eigen::Quaterniond orientation(const Eigen::Vector3d& vector,
                                const Eigen::Quaterniond& q0) noexcept;
