@@ -1,4 +1,5 @@
-#include <random>
+#include <limits>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -175,14 +176,92 @@ TEST(InverseKinematics, IsDampedNearASingularityAndSaysByHowMuchTheToolMisses) {
   EXPECT_LT(farthest, 5e-3);
 }
 
+struct Difference {
+  double position, velocity, acceleration;
+};
+
+// The same target from the last solution alone.
+Difference from_afresh(Arm& afresh, const Eigen::VectorXd& last, const ToolState& target,
+                       const JointSolution& solution) {
+  JointSolution other;
+  afresh.inverse.start(last);
+  EXPECT_EQ(afresh.inverse.follow(target, other), Status::exact);
+  return {(solution.position - other.position).norm(), (solution.velocity - other.velocity).norm(),
+          (solution.acceleration - other.acceleration).norm()};
+}
+
+// Ticks of one length, of another, of changing ones, a time asked for again, a jump, a step back.
+std::vector<double> times_of_every_kind() {
+  std::vector<double> times;
+  const auto go = [&](int count, auto&& length) {
+    for (int k = 0; k < count; ++k)
+      times.push_back((times.empty() ? 0.0 : times.back()) + length(k));
+  };
+  go(20, [](int) { return 1e-3; });
+  go(20, [](int) { return 4e-3; });
+  go(20, [](int k) { return 1e-3 * (1.0 + 0.5 * std::sin(5.0 * k)); });
+  go(20, [](int k) { return k % 3 == 0 ? 0.0 : 1e-3; });
+  go(20, [](int k) { return k == 10 ? 0.2 : 1e-3; });
+  go(20, [](int k) { return k == 10 ? -0.05 : 1e-3; });
+  go(20, [](int) { return -1e-3; });
+  return times;
+}
+
+TEST(InverseKinematics, SolutionsBeforeTheLastMakeNoDifference) {
+  Arm arm, other;
+  Eigen::VectorXd last = arm.inverse.reach(on_path(0.0).pose);
+  for (const double t : times_of_every_kind()) {
+    const JointSolution solution = solution_at(arm, t);
+    const Difference difference = from_afresh(other, last, on_path(t), solution);
+    EXPECT_LT(difference.position, 1e-13) << t;
+    EXPECT_LT(difference.velocity, 1e-9) << t;
+    EXPECT_LT(difference.acceleration, 1e-8) << t;
+    last = solution.position;
+  }
+}
+
+TEST(InverseKinematics, FollowsFromWhereItIsStartedAnew) {
+  Arm arm;
+  arm.inverse.reach(on_path(0.0).pose);
+  for (int k = 0; k < 10; ++k) solution_at(arm, k * 1e-3);
+  Arm other;
+  const Eigen::VectorXd q = other.inverse.reach(on_path(0.7).pose);
+  arm.inverse.start(q);
+  for (int k = 0; k < 10; ++k) {
+    const JointSolution solution = solution_at(arm, 0.7 + k * 1e-3);
+    EXPECT_LT(from_afresh(other, q, on_path(0.7 + k * 1e-3), solution).position, 1e-13) << k;
+  }
+}
+
+TEST(InverseKinematics, GoesOnFromTheLastSolutionAfterAPoseThatHasNone) {
+  Arm arm, other;
+  arm.inverse.reach(on_path(0.0).pose);
+  JointSolution solution;
+  for (int k = 0; k < 10; ++k) solution = solution_at(arm, k * 1e-3);
+  const JointSolution last = solution;
+  ToolState nowhere = on_path(0.01);
+  nowhere.pose.translation().x() = 3.0;
+  EXPECT_EQ(arm.inverse.follow(nowhere, solution), Status::lost);
+  nowhere.pose.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(arm.inverse.follow(nowhere, solution), Status::lost);
+  EXPECT_EQ(solution.position, last.position);
+  EXPECT_EQ(solution.velocity, last.velocity);
+  for (int k = 10; k < 20; ++k) {
+    solution = solution_at(arm, k * 1e-3);
+    EXPECT_LT(from_afresh(other, last.position, on_path(k * 1e-3), solution).position, 1e-13) << k;
+  }
+}
+
 TEST(InverseKinematics, FollowsWithoutAllocating) {
   Arm arm;
   arm.inverse.reach(on_path(0.0).pose);
   JointSolution solution = solution_at(arm, 0.0);
-  const ToolState next = on_path(1e-3);
-  const AllocationGuard guard;
-  EXPECT_EQ(arm.inverse.follow(next, solution), Status::exact);
-  EXPECT_EQ(guard.allocations(), 0);
+  for (const double t : times_of_every_kind()) {
+    const ToolState next = on_path(t);
+    const AllocationGuard guard;
+    EXPECT_EQ(arm.inverse.follow(next, solution), Status::exact);
+    EXPECT_EQ(guard.allocations(), 0) << t;
+  }
 }
 
 TEST(InverseKinematics, RefusesSettingsThatDoNotFit) {

@@ -73,23 +73,35 @@ TEST_P(KinematicsOf, JacobianIsTheDerivativeOfThePose) {
   }
 }
 
-TEST_P(KinematicsOf, DerivativesOfTheJacobianAreThoseOfDifferences) {
+TEST_P(KinematicsOf, WhatComesOfMovingOnIsThatOfDifferences) {
   constexpr double h = 1e-4;
   for (int k = 0; k < 5; ++k) {
     const Eigen::VectorXd q = random_.vector(n_, 2.0);
     const Eigen::VectorXd qd = random_.vector(n_, 1.0);
+    const Vector6d wrench = random_.vector(6, 1.0);
+    const Vector6d rate = random_.vector(6, 1.0);
     const auto jacobian = [&](double t) {
       kinematics_.move_to(q + t * qd);
       return kinematics_.jacobian();
     };
-    const Jacobian before = jacobian(-h);
-    const Jacobian now = jacobian(0.0);
-    const Jacobian after = jacobian(h);
-    kinematics_.move_along(q, qd);
-    EXPECT_LT((kinematics_.jacobian_rate() - (after - before) / (2.0 * h)).norm(), 1e-6);
-    EXPECT_LT((kinematics_.jacobian_curvature() - (after - 2.0 * now + before) / (h * h)).norm(),
-              1e-5);
+    const auto torques = [&](double t) -> Eigen::VectorXd {
+      return jacobian(t).transpose() * (wrench + t * rate);
+    };
+    const Eigen::VectorXd bend = (torques(h) - 2.0 * torques(0.0) + torques(-h)) / (h * h);
+    const Vector6d drift = (jacobian(h) - jacobian(-h)) * qd / (2.0 * h);
+    Eigen::VectorXd curvature(n_);
+    kinematics_.move_to(q);
+    EXPECT_LT((kinematics_.move_on(qd, {wrench, rate}, curvature) - drift).norm(), 1e-6);
+    EXPECT_LT((curvature - bend).norm(), 1e-5);
   }
+}
+
+TEST_P(KinematicsOf, PoseElsewhereIsThatOfGoingThere) {
+  const Eigen::VectorXd q = random_.vector(n_, 2.0);
+  const Eigen::Isometry3d there = kinematics_.pose_at(q);
+  EXPECT_FALSE(there.isApprox(kinematics_.X_base_tool()));
+  kinematics_.move_to(q);
+  EXPECT_EQ(there.matrix(), kinematics_.X_base_tool().matrix());
 }
 
 TEST_P(KinematicsOf, WrenchGradientIsTheDerivativeOfTheTorques) {
@@ -111,9 +123,12 @@ TEST_P(KinematicsOf, WrenchGradientIsTheDerivativeOfTheTorques) {
 TEST_P(KinematicsOf, EvaluatesWithoutAllocating) {
   const Eigen::VectorXd q = random_.vector(n_, 2.0);
   Eigen::MatrixXd gradient(n_, n_);
+  Eigen::VectorXd curvature(n_);
   const AllocationGuard guard;
-  kinematics_.move_along(q, q);
+  EXPECT_TRUE(kinematics_.pose_at(q).matrix().allFinite());
+  kinematics_.move_to(q);
   kinematics_.wrench_gradient(Vector6d::Ones(), gradient);
+  kinematics_.move_on(q, {Vector6d::Ones(), Vector6d::Ones()}, curvature);
   EXPECT_EQ(guard.allocations(), 0);
 }
 

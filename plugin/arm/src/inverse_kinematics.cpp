@@ -13,9 +13,11 @@ namespace seam {
 namespace {
 
 constexpr int most_iterations = 20;
-constexpr double converged = 1e-13;    // [m, rad] and of the step
-constexpr double longest_step = 0.5;   // [rad or m]
-constexpr double good_enough = 1e-12;  // [m, rad]
+constexpr double short_enough = 1e-11;  // [rad or m] a step after which what is left is rounding
+constexpr double worth_it = 0.01;       // of the last solution's squared error, that of a start
+constexpr double converged = 1e-13;     // [m, rad] and of the step, where damped
+constexpr double longest_step = 0.5;    // [rad or m]
+constexpr double good_enough = 1e-12;   // [m, rad]
 constexpr int starts = 60;
 constexpr double near = 1e-6;  // [rad or m] for differences
 
@@ -26,6 +28,12 @@ Eigen::VectorXd filled(const Eigen::VectorXd& given, const Eigen::VectorXd& stan
     throw Error("posture", name + " must be " + std::to_string(standard.size()) +
                                " finite numbers, one per joint");
   return given;
+}
+
+// [m² and rad²] that poses are apart, as long as they are not far.
+double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) noexcept {
+  return (a.translation() - b.translation()).squaredNorm() +
+         0.5 * (a.linear() - b.linear()).squaredNorm();
 }
 
 double middle(const Joint& joint) {
@@ -61,21 +69,23 @@ InverseKinematics::InverseKinematics(const RobotModel& model, Kinematics kinemat
   for (const double value : {damped_below_, damping_, most_error_})
     if (!(std::isfinite(value) && value >= 0.0))
       throw Error("posture", "damping " + std::to_string(value) + ", must be >= 0");
-  softness_slope_.setZero(n);
-  nearby_.setZero(n);
+  heaviest_ = weight_.maxCoeff();
+  nearby_ = curvature_ = softness_slope_ = Eigen::VectorXd::Zero(n);
   gradient_.setZero(n, n);
-  system_.setZero(n + 6, n + 6);
-  right_.setZero(n + 6);
-  step_ = right_;
+  matrix_.setZero(n + 6, n + 6);
+  columns_.setZero(n + 6, 2);
   factors_ = Eigen::PartialPivLU<System>(n + 6);
   q_ = rest_;
+  state_.setZero(n + 6);
+  history_.states.fill(state_);
+  start(q_);
 }
 
+// Where the kinematics is.
 Vector6d InverseKinematics::error(const Eigen::Isometry3d& target) const noexcept {
   const Eigen::Isometry3d& X = kinematics_.X_base_tool();
   Vector6d e;
-  e << X.translation() - target.translation(),
-      rotation_vector(Eigen::Quaterniond(X.linear()), Eigen::Quaterniond(target.linear()));
+  e << X.translation() - target.translation(), rotation_vector(X.linear(), target.linear());
   return e;
 }
 
@@ -97,7 +107,6 @@ double InverseKinematics::softness_at(const Eigen::VectorXd& q) noexcept {
 
 // λ² and its slope at q_, where the kinematics is, by central differences.
 void InverseKinematics::soften() noexcept {
-  softness_slope_.setZero();
   softness_ = softness_here();
   if (softness_ == 0.0) return;
   nearby_ = q_;
@@ -120,44 +129,112 @@ double InverseKinematics::softness_curvature(const Eigen::VectorXd& qd) noexcept
   const double after = softness_at(nearby_);
   nearby_ = q_ - h * qd;
   const double before = softness_at(nearby_);
+  kinematics_.move_to(q_);
   return (after - 2.0 * softness_ + before) / (h * h);
 }
 
 // The matrix of both conditions' derivatives at q_, where the kinematics is, factored.
 void InverseKinematics::assemble() noexcept {
-  const int n = dof();
-  soften();
+  softness_ = 0.0;
+  const double least = system_.choose(kinematics_.jacobian());
+  if (!(least >= damped_below_)) soften();
   kinematics_.wrench_gradient(wrench_, gradient_);
-  system_.topLeftCorner(n, n) = gradient_;
-  system_.topLeftCorner(n, n).diagonal() += weight_;
-  system_.topRightCorner(n, 6) = kinematics_.jacobian().transpose();
-  system_.bottomLeftCorner(6, n) = kinematics_.jacobian();
-  system_.bottomLeftCorner(6, n).noalias() -= wrench_ * softness_slope_.transpose();
-  system_.bottomRightCorner<6, 6>().setZero();
-  system_.bottomRightCorner<6, 6>().diagonal().setConstant(-softness_);
-  factors_.compute(system_);
+  gradient_.diagonal() += weight_;
+  whole_ = softness_ > 0.0 || !(least > 0.0) || !system_.factor(gradient_);
+  if (whole_) assemble_whole();
 }
 
-bool InverseKinematics::converge(const Eigen::Isometry3d& target) noexcept {
+void InverseKinematics::assemble_whole() noexcept {
+  const int n = dof();
+  matrix_.topLeftCorner(n, n) = gradient_;
+  matrix_.topRightCorner(n, 6) = kinematics_.jacobian().transpose();
+  matrix_.bottomLeftCorner(6, n) = kinematics_.jacobian();
+  matrix_.bottomRightCorner<6, 6>().setZero();
+  matrix_.bottomRightCorner<6, 6>().diagonal().setConstant(-softness_);
+  if (softness_ > 0.0)
+    matrix_.bottomLeftCorner(6, n).noalias() -= wrench_ * softness_slope_.transpose();
+  factors_.compute(matrix_);
+}
+
+void InverseKinematics::solve() noexcept {
+  if (!whole_) return system_.solve(sides_);
+  const int size = dof() + 6;
+  for (int i = 0; i < size; ++i) columns_.row(i) = sides_[i].transpose();
+  columns_ = factors_.solve(columns_).eval();
+  for (int i = 0; i < size; ++i) sides_[i] = columns_.row(i).transpose();
+}
+
+bool InverseKinematics::History::is_at(const Eigen::Isometry3d& target) const noexcept {
+  return length > 0 && target.matrix() == pose.matrix();
+}
+
+void InverseKinematics::History::add(const Eigen::Isometry3d& target, const Vector& now) noexcept {
+  if (is_at(target)) return;
+  newest = (newest + 1) % most_length;
+  length = std::min(length + 1, most_length);
+  states[newest] = now;
+  pose = target;
+}
+
+// The polynomial through them, one tick on.
+void InverseKinematics::History::go_on(Vector& next) const noexcept {
+  constexpr double factors[most_length][most_length] = {
+      {1.0}, {2.0, -1.0}, {3.0, -3.0, 1.0}, {4.0, -6.0, 4.0, -1.0}, {5.0, -10.0, 10.0, -5.0, 1.0}};
+  next.setZero();
+  for (int k = 0; k < length; ++k)
+    next += factors[length - 1][k] * states[(newest + most_length - k) % most_length];
+}
+
+// Where the last solutions lead, or at the last one.
+void InverseKinematics::begin(const Eigen::Isometry3d& target) noexcept {
+  if (history_.length > 1 && !history_.is_at(target)) {
+    history_.go_on(state_);
+    go_to_state();
+    if (apart(kinematics_.X_base_tool(), target) <= worth_it * apart(history_.pose, target)) return;
+    history_.length = 0;
+  }
+  state_ = history_.states[history_.newest];
+  go_to_state();
+}
+
+void InverseKinematics::go_to_state() noexcept {
+  q_ = state_.head(dof());
+  wrench_ = state_.tail<6>();
+  kinematics_.move_to(q_);
+}
+
+// Newton's method for the conditions. With the last step comes the velocity, in the other column.
+bool InverseKinematics::converge(const ToolState& target) noexcept {
   const int n = dof();
   for (int i = 0; i < most_iterations; ++i) {
-    kinematics_.move_to(q_);
+    if (i > 0) kinematics_.move_to(q_);
     assemble();
-    const Vector6d e = error(target) - softness_ * wrench_;
-    right_.head(n) = -weight_.cwiseProduct(q_ - rest_);
-    right_.head(n).noalias() -= kinematics_.jacobian().transpose() * wrench_;
-    right_.tail<6>() = -e;
-    step_.noalias() = factors_.solve(right_);
-    const double length = step_.head(n).norm();
-    if (!std::isfinite(length)) return false;
-    const double scale = length > longest_step ? longest_step / length : 1.0;
-    q_ += scale * step_.head(n);
-    wrench_ += scale * step_.tail<6>();
-    if (length < converged && e.norm() < good_enough) return true;
+    const Vector6d e = error(target.pose);
+    for (int k = 0; k < n; ++k) sides_[k] << weight_(k) * (rest_(k) - q_(k)), 0.0;
+    for (int k = 0; k < 6; ++k) sides_[n + k] << -e(k), target.velocity(k);
+    solve();
+    const double left = (e - softness_ * wrench_).norm();
+    const auto [joints, wrench] = take_step();
+    if (!std::isfinite(joints)) return false;
+    if (softness_ == 0.0 && joints <= short_enough && wrench <= short_enough) return true;
     // Rounding keeps the last steps of a tense posture from getting shorter.
-    if (i > 3 && length < 10.0 * converged && e.norm() < good_enough) return true;
+    if (joints < (i > 3 ? 10.0 * converged : converged) && left < good_enough) return true;
   }
   return false;
+}
+
+// As far as Newton's method says, or half a radian.
+InverseKinematics::Step InverseKinematics::take_step() noexcept {
+  const int n = dof();
+  double squared = 0.0;
+  for (int k = 0; k < n; ++k) squared += sides_[k](0) * sides_[k](0);
+  const double length = std::sqrt(squared);
+  const double scale = length > longest_step ? longest_step / length : 1.0;
+  for (int k = 0; k < n; ++k) q_(k) += scale * sides_[k](0);
+  Vector6d change;
+  for (int k = 0; k < 6; ++k) change(k) = sides_[n + k](0) - wrench_(k);
+  wrench_ += scale * change;
+  return {length, change.norm() / (heaviest_ + wrench_.norm())};
 }
 
 bool InverseKinematics::within_limits() const noexcept {
@@ -170,8 +247,8 @@ void InverseKinematics::estimate_wrench() noexcept {
   scaled_ = J * weight_.cwiseInverse().asDiagonal();
   Eigen::Matrix<double, 6, 6> normal = scaled_.lazyProduct(J.transpose());
   normal.diagonal().array() += 1e-12;
-  step_.head(dof()) = q_ - rest_;
-  const Vector6d pull = J.lazyProduct(step_.head(dof()));
+  nearby_ = q_ - rest_;
+  const Vector6d pull = J.lazyProduct(nearby_);
   wrench_ = -normal.ldlt().solve(pull);
 }
 
@@ -179,47 +256,47 @@ void InverseKinematics::start(const Eigen::Ref<const Eigen::VectorXd>& q) noexce
   q_ = q;
   kinematics_.move_to(q_);
   estimate_wrench();
+  history_.states[history_.newest] << q_, wrench_;
+  history_.length = 0;
 }
 
 InverseKinematics::Status InverseKinematics::follow(const ToolState& target,
                                                     JointSolution& solution) noexcept {
-  const int n = dof();
+  begin(target.pose);
+  const bool near_enough = converge(target) && (softness_ * wrench_).norm() <= most_error_;
+  if (!near_enough) return Status::lost;
+  if (!within_limits()) return Status::beyond_limit;
+  state_ << q_, wrench_;
+  history_.add(target.pose, state_);
   solution.position = q_;
-  const Vector6d wrench_before = wrench_;
-  const bool found = converge(target.pose);
-  kinematics_.move_to(q_);
-  const Vector6d e = error(target.pose);
-  const bool near_enough = found && e.norm() <= most_error_;
-  if (!near_enough || !within_limits()) {
-    q_ = solution.position;
-    wrench_ = wrench_before;
-    return near_enough ? Status::beyond_limit : Status::lost;
-  }
-  solution.position = q_;
-  solution.position_error = e.head<3>().norm();
-  solution.angle_error = e.tail<3>().norm();
-  assemble();
-  right_.head(n).setZero();
-  right_.tail<6>() = target.velocity;
-  step_.noalias() = factors_.solve(right_);
-  solution.velocity = step_.head(n);
-  const Vector6d wrench_rate = step_.tail<6>();
-  const double softness_rate = softness_slope_.dot(solution.velocity);
-  const double softness_curvature = this->softness_curvature(solution.velocity);
-  kinematics_.move_along(q_, solution.velocity);
-  right_.head(n).noalias() = -2.0 * kinematics_.jacobian_rate().transpose() * wrench_rate;
-  right_.head(n).noalias() -= kinematics_.jacobian_curvature().transpose() * wrench_;
-  right_.tail<6>() = target.acceleration;
-  right_.tail<6>().noalias() -= kinematics_.jacobian_rate() * solution.velocity;
-  right_.tail<6>() += softness_curvature * wrench_ + 2.0 * softness_rate * wrench_rate;
-  step_.noalias() = factors_.solve(right_);
-  solution.acceleration = step_.head(n);
+  solution.position_error = softness_ * wrench_.head<3>().norm();
+  solution.angle_error = softness_ * wrench_.tail<3>().norm();
+  move_on(target.acceleration, solution);
   return softness_ > 0.0 ? Status::damped : Status::exact;
+}
+
+// The second derivative of both conditions, by the matrix and the velocity that came with the last step.
+void InverseKinematics::move_on(const Vector6d& acceleration, JointSolution& solution) noexcept {
+  const int n = dof();
+  solution.velocity.resize(n);
+  solution.acceleration.resize(n);
+  Kinematics::MovingWrench wrench{wrench_, Vector6d()};
+  for (int k = 0; k < n; ++k) solution.velocity(k) = sides_[k](1);
+  for (int k = 0; k < 6; ++k) wrench.rate(k) = sides_[n + k](1);
+  Vector6d tool = acceleration;
+  if (softness_ > 0.0) {
+    tool += softness_curvature(solution.velocity) * wrench_;
+    tool += 2.0 * softness_slope_.dot(solution.velocity) * wrench.rate;
+  }
+  tool -= kinematics_.move_on(solution.velocity, wrench, curvature_);
+  for (int k = 0; k < n; ++k) sides_[k] << -curvature_(k), 0.0;
+  for (int k = 0; k < 6; ++k) sides_[n + k] << tool(k), 0.0;
+  solve();
+  for (int k = 0; k < n; ++k) solution.acceleration(k) = sides_[k](0);
 }
 
 // Damped least squares towards the pose, within the limits; then along the poses that reach it towards the posture.
 bool InverseKinematics::approach(const Eigen::Isometry3d& target) {
-  const int n = dof();
   double damping = 1e-2;
   kinematics_.move_to(q_);
   double squared = error(target).squaredNorm();
@@ -260,7 +337,7 @@ bool InverseKinematics::approach(const Eigen::Isometry3d& target) {
     kinematics_.move_to(q_);
   }
   estimate_wrench();
-  return q_.size() == n && converge(target) && within_limits();
+  return converge({target}) && within_limits();
 }
 
 double InverseKinematics::posture_cost() const noexcept {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <seam/error.hpp>
 #include <seam/kinematics.hpp>
@@ -7,129 +8,143 @@ namespace seam {
 
 namespace {
 
-// A vector that turns, or a point that moves: its value and its first two derivatives with respect to time.
-struct Moving {
-  Eigen::Vector3d value, rate, curvature;
-};
-
-Moving operator+(const Moving& a, const Moving& b) {
-  return {a.value + b.value, a.rate + b.rate, a.curvature + b.curvature};
-}
-Moving operator-(const Moving& a, const Moving& b) {
-  return {a.value - b.value, a.rate - b.rate, a.curvature - b.curvature};
-}
-Moving cross(const Moving& a, const Moving& b) {
-  return {a.value.cross(b.value), a.rate.cross(b.value) + a.value.cross(b.rate),
-          a.curvature.cross(b.value) + 2.0 * a.rate.cross(b.rate) + a.value.cross(b.curvature)};
-}
-
-// A vector fixed in a body that turns with an angular velocity and acceleration.
-Moving turning(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity,
-               const Eigen::Vector3d& acceleration) {
-  const Eigen::Vector3d rate = velocity.cross(vector);
-  return {vector, rate, acceleration.cross(vector) + velocity.cross(rate)};
+// A rotation that takes z to an axis: exact where the axis is one of the frame's.
+Eigen::Isometry3d turned_to(const Eigen::Vector3d& axis) {
+  Eigen::Index least = 0;
+  axis.cwiseAbs().minCoeff(&least);
+  const Eigen::Vector3d x = axis.cross(Eigen::Vector3d::Unit(least)).normalized();
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.linear() << x, axis.cross(x), axis;
+  return turned;
 }
 
 }  // namespace
 
 Kinematics::Kinematics(const RobotModel& model, const std::string& link,
                        const Eigen::Isometry3d& X_link_tool)
-    : X_body_tool_(model.frame(link).X_body_frame * X_link_tool) {
+    : X_last_tool_(model.frame(link).X_body_frame * X_link_tool) {
   for (int i = model.frame(link).body; i >= 0;
        i = model.joints[static_cast<std::size_t>(i)].parent) {
     const Joint& joint = model.joints[static_cast<std::size_t>(i)];
     if (joint.follows())
       throw Error("link \"" + link + "\"", "is moved by joint \"" + joint.name +
                                                "\", which follows another; take a link before it");
-    chain_.push_back({i, joint.type == Joint::Type::prismatic, joint.X_parent_body, joint.axis,
-                      Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+    const Eigen::Isometry3d to_axis = turned_to(joint.axis);
+    Eigen::Isometry3d& X_joint_next = chain_.empty() ? X_last_tool_ : chain_.back().X_before_joint;
+    X_joint_next = to_axis.inverse() * X_joint_next;
+    chain_.push_back({i, joint.type == Joint::Type::prismatic, joint.X_parent_body * to_axis});
   }
   if (chain_.empty()) throw Error("link \"" + link + "\"", "is moved by no joint");
   std::reverse(chain_.begin(), chain_.end());
   jacobian_.setZero(6, model.dof());
-  rate_ = curvature_ = jacobian_;
   move_to(Eigen::VectorXd::Zero(model.dof()));
 }
 
-void Kinematics::move_to(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  for (Link& link : chain_) {
-    X = X * link.X_parent_body;
-    link.world_axis = X.linear() * link.axis;
-    link.world_origin = X.translation();
-    if (link.prismatic)
-      X.translation() += q(link.joint) * link.world_axis;
-    else
-      X.linear() = X.linear() * Eigen::AngleAxisd(q(link.joint), link.axis).toRotationMatrix();
+// Along the chain to the frame; each joint is seen before it moves, its axis z.
+template <typename Visit>
+Eigen::Isometry3d Kinematics::walk(const Eigen::Ref<const Eigen::VectorXd>& q,
+                                   Visit&& visit) const noexcept {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  for (const Link& link : chain_) {
+    p += R * link.X_before_joint.translation();
+    R = R * link.X_before_joint.linear();
+    visit(link, R.col(2), p);
+    if (link.prismatic) {
+      p += q(link.joint) * R.col(2);
+    } else {
+      const double s = std::sin(q(link.joint));
+      const double c = std::cos(q(link.joint));
+      const Eigen::Vector3d x = R.col(0);
+      R.col(0) = c * x + s * R.col(1);
+      R.col(1) = c * R.col(1) - s * x;
+    }
   }
-  X_base_tool_ = X * X_body_tool_;
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = p + R * X_last_tool_.translation();
+  X.linear() = R * X_last_tool_.linear();
+  return X;
+}
+
+Eigen::Isometry3d Kinematics::pose_at(const Eigen::Ref<const Eigen::VectorXd>& q) const noexcept {
+  return walk(q, [](const auto&...) {});
+}
+
+void Kinematics::move_to(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept {
+  X_base_tool_ = walk(q, [&](const Link& link, const auto& axis, const Eigen::Vector3d& origin) {
+    jacobian_.col(link.joint) << origin, axis;  // until the tool is known
+  });
   const Eigen::Vector3d tool = X_base_tool_.translation();
   for (const Link& link : chain_) {
+    auto column = jacobian_.col(link.joint);
+    const Eigen::Vector3d axis = column.tail<3>();
     if (link.prismatic)
-      jacobian_.col(link.joint) << link.world_axis, Eigen::Vector3d::Zero();
+      column << axis, Eigen::Vector3d::Zero();
     else
-      jacobian_.col(link.joint) << link.world_axis.cross(tool - link.world_origin), link.world_axis;
+      column.head<3>() = axis.cross(tool - column.head<3>());
   }
 }
 
 void Kinematics::wrench_gradient(const Vector6d& wrench,
                                  Eigen::Ref<Eigen::MatrixXd> gradient) const noexcept {
-  gradient.setZero();
+  if (chain_.size() < static_cast<std::size_t>(dof())) gradient.setZero();
   const Eigen::Vector3d force = wrench.head<3>();
   const Eigen::Vector3d moment = wrench.tail<3>();
-  for (std::size_t b = 0; b < chain_.size(); ++b)
+  for (std::size_t b = 0; b < chain_.size(); ++b) {
+    const Eigen::Index j = chain_[b].joint;
+    Eigen::Array<double, 2, 3> both;  // of the column's linear part alone, and of all of it
+    both.row(0) = jacobian_.col(j).head<3>().cross(force);
+    both.row(1) = both.row(0).matrix() + jacobian_.col(j).tail<3>().cross(moment).transpose();
     for (std::size_t a = 0; a <= b; ++a) {
       const Eigen::Index i = chain_[a].joint;
-      const Eigen::Index j = chain_[b].joint;
-      const Eigen::Vector3d turns = jacobian_.col(i).tail<3>();
-      const double linear = force.dot(turns.cross(jacobian_.col(j).head<3>()));
-      gradient(j, i) = linear + moment.dot(turns.cross(jacobian_.col(j).tail<3>()));
-      if (i != j) gradient(i, j) = linear;
+      const auto axis = jacobian_.col(i).tail<3>();
+      const Eigen::Array2d turned =
+          both.col(0) * axis(0) + both.col(1) * axis(1) + both.col(2) * axis(2);
+      gradient(i, j) = turned(0);
+      gradient(j, i) = turned(1);
     }
+  }
 }
 
-void Kinematics::move_along(const Eigen::Ref<const Eigen::VectorXd>& q,
-                            const Eigen::Ref<const Eigen::VectorXd>& qd) noexcept {
-  move_to(q);
-  // Axes and origins on the way out; the body's turning is that of the joints before it.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-  Moving origin{velocity, velocity, velocity};
-  const auto advance = [&](const Link& link, auto&& visit) {
-    const Moving axis = turning(link.world_axis, velocity, acceleration);
-    origin = origin + turning(link.world_origin - origin.value, velocity, acceleration);
-    visit(axis);
-    if (link.prismatic) {
-      const double s = q(link.joint);
-      const double sd = qd(link.joint);
-      origin = origin + Moving{s * axis.value, s * axis.rate + sd * axis.value,
-                               s * axis.curvature + 2.0 * sd * axis.rate};
-    } else {
-      acceleration += qd(link.joint) * axis.rate;
-      velocity += qd(link.joint) * axis.value;
-    }
-  };
+// Each column s is a twist about the point where the frame's origin is now. With V the twist of the joints before it, which
+// carry it along, ṡ = V × s and s̈ = V̇ × s + V × ṡ. Of a wrench F it is, with (X × s)·F = X·(s ×* F) and P the sum of
+// q̇ᵢ·sᵢ ×* F over the joints before,
+//     s̈·F = V̇·(s ×* F) − ṡ·P
+Vector6d Kinematics::move_on(const Eigen::Ref<const Eigen::VectorXd>& qd,
+                             const MovingWrench& wrench,
+                             Eigen::Ref<Eigen::VectorXd> curvature) const noexcept {
+  using Eigen::Vector3d;
+  const Vector3d force = wrench.value.head<3>();
+  const Vector3d moment = wrench.value.tail<3>();
+  const Vector3d velocity = jacobian_.topRows<3>().lazyProduct(qd);
+  Vector3d turning = Vector3d::Zero(), turning_rate = turning;  // V, V̇
+  Vector3d gliding = Vector3d::Zero(), gliding_rate = gliding;
+  Vector3d twice_force_rate = 2.0 * wrench.rate.head<3>();  // less P
+  Vector3d twice_moment_rate = 2.0 * (wrench.rate.tail<3>() + velocity.cross(force));
+  if (chain_.size() < static_cast<std::size_t>(dof())) curvature.setZero();
   for (const Link& link : chain_) {
-    advance(link, [&](const Moving& axis) {
-      // For now with the origin alone; the tool's motion is known at the end of the chain.
-      rate_.col(link.joint) << origin.rate, axis.rate;
-      curvature_.col(link.joint) << origin.curvature, axis.curvature;
-    });
+    const double rate = qd(link.joint);
+    const Vector3d v = jacobian_.col(link.joint).head<3>();
+    const Vector3d w = jacobian_.col(link.joint).tail<3>();
+    const Vector3d v_rate = turning.cross(v) + gliding.cross(w);
+    const Vector3d w_rate = turning.cross(w);
+    const Vector3d to_force = w.cross(force);
+    const Vector3d to_moment = v.cross(force) + w.cross(moment);
+    curvature(link.joint) = turning_rate.dot(to_moment) + gliding_rate.dot(to_force) +
+                            v_rate.dot(twice_force_rate) + w_rate.dot(twice_moment_rate);
+    turning += rate * w;
+    gliding += rate * v;
+    turning_rate += rate * w_rate;
+    gliding_rate += rate * v_rate;
+    twice_force_rate -= rate * to_force;
+    twice_moment_rate -= rate * to_moment;
   }
-  const Moving tool =
-      origin + turning(X_base_tool_.translation() - origin.value, velocity, acceleration);
-  for (const Link& link : chain_) {
-    auto rate = rate_.col(link.joint);
-    auto curvature = curvature_.col(link.joint);
-    const Moving axis{link.world_axis, rate.tail<3>(), curvature.tail<3>()};
-    const Moving at{link.world_origin, rate.head<3>(), curvature.head<3>()};
-    const Moving linear = link.prismatic ? axis : cross(axis, tool - at);
-    rate.head<3>() = linear.rate;
-    curvature.head<3>() = linear.curvature;
-    if (!link.prismatic) continue;
-    rate.tail<3>().setZero();
-    curvature.tail<3>().setZero();
-  }
+  Vector6d acceleration;
+  acceleration << gliding_rate + turning.cross(velocity), turning_rate;
+  const Vector3d moment_curvature =
+      acceleration.head<3>().cross(force) + 2.0 * velocity.cross(wrench.rate.head<3>());
+  curvature.noalias() += jacobian_.bottomRows<3>().transpose().lazyProduct(moment_curvature);
+  return acceleration;
 }
 
 }  // namespace seam

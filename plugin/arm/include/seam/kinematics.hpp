@@ -16,8 +16,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// One column per joint.
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Pose, Jacobian and the Jacobian's exact derivatives of one frame of a robot, in the frame of its base
-/// (URDF root link). With ωⱼ the axis of a revolute joint (0 for a prismatic one) and vⱼ what the joint
+/// Pose and Jacobian of one frame of a robot, in the frame of its base (URDF root link), and what the Jacobian's exact
+/// derivatives do. With ωⱼ the axis of a revolute joint (0 for a prismatic one) and vⱼ what the joint
 /// does to the frame's origin, column j of J is (vⱼ, ωⱼ), and for joint i before joint j
 ///     ∂vⱼ/∂qᵢ = ∂vᵢ/∂qⱼ = ωᵢ × vⱼ,   ∂ωⱼ/∂qᵢ = ωᵢ × ωⱼ,   ∂ωᵢ/∂qⱼ = 0
 /// Joints that do not move the frame have columns of 0. Construction allocates; nothing after it does, nor throws.
@@ -31,6 +31,9 @@ class Kinematics {
 
   int dof() const noexcept { return static_cast<int>(jacobian_.cols()); }  // n joints
 
+  /// The frame's pose at joint positions [rad or m], without going there.
+  Eigen::Isometry3d pose_at(const Eigen::Ref<const Eigen::VectorXd>& q) const noexcept;
+
   /// Goes to joint positions [rad or m]; all that follows is for these.
   void move_to(const Eigen::Ref<const Eigen::VectorXd>& q) noexcept;
   /// The frame's pose.
@@ -39,27 +42,29 @@ class Kinematics {
   /// d(Jᵀw)/dq for a constant wrench: element (j, i) is Σₖ wₖ ∂Jₖⱼ/∂qᵢ. dof × dof.
   void wrench_gradient(const Vector6d& wrench, Eigen::Ref<Eigen::MatrixXd> gradient) const noexcept;
 
-  /// The first and second time derivative of J while the joints move at constant velocities. J̇·q̇ is the frame's
-  /// acceleration apart from J·q̈.
-  void move_along(const Eigen::Ref<const Eigen::VectorXd>& q,
-                  const Eigen::Ref<const Eigen::VectorXd>& qd) noexcept;
-  const Jacobian& jacobian_rate() const noexcept { return rate_; }            // J̇
-  const Jacobian& jacobian_curvature() const noexcept { return curvature_; }  // its derivative
+  /// A wrench and its rate of change.
+  struct MovingWrench {
+    Vector6d value, rate;  // w, ẇ
+  };
+  /// While the joints move at constant velocities and w changes at a constant rate: d²(Jᵀw)/dt² = J̈ᵀw + 2J̇ᵀẇ, dof.
+  /// @return  the frame's acceleration, J̇·q̇
+  Vector6d move_on(const Eigen::Ref<const Eigen::VectorXd>& qd, const MovingWrench& wrench,
+                   Eigen::Ref<Eigen::VectorXd> curvature) const noexcept;
 
  private:
   struct Link {
     Eigen::Index joint;
     bool prismatic;
-    Eigen::Isometry3d X_parent_body;
-    Eigen::Vector3d axis;          // in the body
-    Eigen::Vector3d world_axis;    // in the base
-    Eigen::Vector3d world_origin;  // of the joint, before a prismatic one slides
+    Eigen::Isometry3d X_before_joint;  // in the joint before; the z axis is the joint's
   };
 
-  std::vector<Link> chain_;  // from the base to the frame
-  Eigen::Isometry3d X_body_tool_;
+  template <typename Visit>
+  Eigen::Isometry3d walk(const Eigen::Ref<const Eigen::VectorXd>& q, Visit&& visit) const noexcept;
+
+  std::vector<Link> chain_;        // from the base to the frame
+  Eigen::Isometry3d X_last_tool_;  // in the last joint
   Eigen::Isometry3d X_base_tool_ = Eigen::Isometry3d::Identity();
-  Jacobian jacobian_, rate_, curvature_;
+  Jacobian jacobian_;
 };
 
 }  // namespace seam
