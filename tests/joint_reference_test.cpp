@@ -136,6 +136,33 @@ TEST(TaskSpace, JointVelocitiesAndAccelerationsAreTheDerivatives) {
   }
 }
 
+TEST(TaskSpace, SaysHowFarTheToolIsFromAnySample) {
+  for (const Eigen::VectorXd& by : {Eigen::VectorXd(six().head(3)), six()}) {
+    const Sequence task = there_and_back(by);
+    TaskSpace space(arm(), task, hand(), posture());
+    Sample here = space.measured(posture(), Eigen::VectorXd::Zero(7));
+    Sample there = here;
+    there.position += 0.1 * by;
+    Sample joints(7);
+    const auto miss_is = [&](double share) {
+      const ToolError none = space.miss(here, posture());
+      EXPECT_LT(none.distance, 1e-12) << share;
+      EXPECT_LT(none.angle, 1e-12) << share;
+      const ToolError some = space.miss(there, posture());
+      EXPECT_NEAR(some.distance, share * by.head(3).norm(), 1e-12);
+      EXPECT_NEAR(some.angle, by.size() == 6 ? share * by.tail(3).norm() : 0.0, 1e-12);
+    };
+    miss_is(0.1);
+    ASSERT_TRUE(space.find(there, joints));
+    miss_is(0.1);
+    ASSERT_TRUE(space.find(here, joints));
+    miss_is(0.1);
+    there.position += 5.0 * by;
+    EXPECT_FALSE(space.find(there, joints));
+    miss_is(5.1);
+  }
+}
+
 TEST(TaskSpace, GoalOutOfReachStopsTheArmSmoothly) {
   App app(there_and_back(six().head(3)), Join::dmp3, {{}, hand()});
   for (int k = 0; k < 200; ++k) app.step();

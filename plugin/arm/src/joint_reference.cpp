@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <seam/error.hpp>
 #include <seam/joint_reference.hpp>
@@ -128,6 +129,7 @@ TaskSpace::TaskSpace(const RobotModel& robot, const Sequence& sequence, const To
       reference_(tool.orientation.value_or(Eigen::Quaterniond(tool_at(q).linear()))) {
   if (!(most_speed_ > 0.0)) throw Error("tool", "most_speed must be > 0");
   solution_.position = solution_.velocity = solution_.acceleration = found_ = q;
+  target_at_.setConstant(dimensions_, std::numeric_limits<double>::quiet_NaN());
   if (!turns()) return;
   const auto& reference = sequence.steps().front().primitive.reference_orientation;
   if (!reference)
@@ -135,9 +137,8 @@ TaskSpace::TaskSpace(const RobotModel& robot, const Sequence& sequence, const To
   reference_ = *reference;
 }
 
-Eigen::Isometry3d TaskSpace::tool_at(const Eigen::VectorXd& q) noexcept {
-  tool_.move_to(q);
-  return tool_.X_base_tool();
+Eigen::Isometry3d TaskSpace::tool_at(const Eigen::VectorXd& q) const noexcept {
+  return tool_.pose_at(q);
 }
 
 Eigen::Isometry3d TaskSpace::pose(
@@ -172,17 +173,17 @@ bool TaskSpace::take_up(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sam
 }
 
 bool TaskSpace::state_at(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept {
-  const Eigen::Isometry3d X = tool_at(q);
+  tool_.move_to(q);
+  const Eigen::Isometry3d& X = tool_.X_base_tool();
   solver_.start(q);
-  target_.pose = X;
-  target_.velocity.noalias() = tool_.jacobian() * qd;
+  const Vector6d velocity = tool_.jacobian() * qd;
   at.position.head<3>() = X.translation();
-  at.velocity.head<3>() = target_.velocity.head<3>();
+  at.velocity.head<3>() = velocity.head<3>();
   at.acceleration.setZero();
   at.jerk.setZero();
   if (!turns()) return true;
   RotationState turn;
-  const OrientationState is{Eigen::Quaterniond(X.linear()), target_.velocity.tail<3>(),
+  const OrientationState is{Eigen::Quaterniond(X.linear()), velocity.tail<3>(),
                             Eigen::Vector3d::Zero()};
   if (!to_rotation(is, reference_, turn)) return false;
   at.position.tail<3>() = turn.vector;
@@ -197,16 +198,22 @@ void TaskSpace::require_reachable(const Primitive& primitive) {
 }
 
 bool TaskSpace::to_tool(const Sample& sample) noexcept {
-  target_.pose = pose(sample.position);
-  target_.velocity.setZero();
-  target_.acceleration.setZero();
-  target_.velocity.head<3>() = sample.velocity.head<3>();
-  target_.acceleration.head<3>() = sample.acceleration.head<3>();
-  if (!turns()) return sample.position.allFinite();
+  target_at_ = sample.position;
+  target_.pose.translation() = sample.position.head<3>();
+  target_.velocity << sample.velocity.head<3>(), 0.0, 0.0, 0.0;
+  target_.acceleration << sample.acceleration.head<3>(), 0.0, 0.0, 0.0;
+  if (!turns()) {
+    target_.pose.linear() = reference_.toRotationMatrix();
+    return sample.position.allFinite();
+  }
   OrientationState turned;
   const RotationState turn{sample.position.tail<3>(), sample.velocity.tail<3>(),
                            sample.acceleration.tail<3>()};
-  if (!to_orientation(turn, reference_, turned)) return false;
+  if (!to_orientation(turn, reference_, turned)) {
+    target_.pose = pose(sample.position);
+    return false;
+  }
+  target_.pose.linear() = turned.orientation.toRotationMatrix();
   target_.velocity.tail<3>() = turned.velocity;
   target_.acceleration.tail<3>() = turned.acceleration;
   return true;
@@ -230,10 +237,11 @@ bool TaskSpace::find(const Sample& sample, Sample& joints) noexcept {
 
 ToolError TaskSpace::miss(const Sample& sample, const Eigen::VectorXd& q) noexcept {
   const Eigen::Isometry3d is = tool_at(q);
-  const Eigen::Isometry3d should = pose(sample.position);
-  return {
-      (is.translation() - should.translation()).norm(),
-      rotation_vector(Eigen::Quaterniond(is.linear()), Eigen::Quaterniond(should.linear())).norm()};
+  // Mostly it is the last one that was followed.
+  const Eigen::Isometry3d should =
+      sample.position == target_at_ ? target_.pose : pose(sample.position);
+  return {(is.translation() - should.translation()).norm(),
+          rotation_vector(is.linear(), should.linear()).norm()};
 }
 
 }  // namespace seam

@@ -124,7 +124,7 @@ class TaskSpace final : public JointReference {
   bool find(const Sample& sample, Sample& joints) noexcept override;
   ToolError miss(const Sample& sample, const Eigen::VectorXd& q) noexcept override;
   /// The tool's pose for joint positions. Neither allocates nor throws.
-  Eigen::Isometry3d tool_at(const Eigen::VectorXd& q) noexcept;
+  Eigen::Isometry3d tool_at(const Eigen::VectorXd& q) const noexcept;
 
  private:
   bool turns() const noexcept { return dimensions_ == 6; }
@@ -139,6 +139,7 @@ class TaskSpace final : public JointReference {
   Followers followers_;
   Eigen::Quaterniond reference_;  // q₀, or the orientation that is kept
   ToolState target_;
+  Eigen::VectorXd target_at_;  // the coordinates of its pose
   JointSolution solution_;
   Eigen::VectorXd found_;  // n, the last position that `find` gave
 };
