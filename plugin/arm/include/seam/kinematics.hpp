@@ -44,7 +44,8 @@ class Kinematics {
 
   /// A wrench and its rate of change.
   struct MovingWrench {
-    Vector6d value, rate;  // w, ẇ
+    Vector6d value;  // w
+    Vector6d rate;   // ẇ
   };
   /// While the joints move at constant velocities and w changes at a constant rate: d²(Jᵀw)/dt² = J̈ᵀw + 2J̇ᵀẇ, dof.
   /// @return  the frame's acceleration, J̇·q̇
