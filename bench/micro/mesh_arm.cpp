@@ -13,6 +13,8 @@ namespace seam::micro {
 
 namespace {
 
+constexpr double slimness = 0.8;
+
 /// A folder that is removed at the end.
 class Folder {
  public:
@@ -31,17 +33,24 @@ class Folder {
   std::string path_ = std::filesystem::temp_directory_path() / "seam_micro-XXXXXX";
 };
 
-// A ball of radius 1 of 17 circles of 20 vertices and two poles.
-std::string ball_as_obj() {
-  constexpr int circles = 17, around = 20;
+// A cylinder of radius 1 and height 2 with rounded edges: 14 circles of 24 vertices, and the centres of both ends.
+std::string cylinder_as_obj() {
+  constexpr int circles = 14, around = 24;
+  constexpr double rounding = 0.3;
   std::ostringstream obj;
   obj << "v 0 0 1\nv 0 0 -1\n";
-  for (int i = 1; i <= circles; ++i)
+  for (int i = 0; i < circles; ++i) {
+    const double side = i < circles / 2 ? 1.0 : -1.0;
+    const double from_end = i < circles / 2 ? i : circles - 1 - i;
+    const double slope = 0.5 * M_PI * from_end / (circles / 2 - 1);
+    const double radius = 1.0 - rounding + rounding * std::sin(slope);
+    const double height = side * (1.0 - rounding + rounding * std::cos(slope));
     for (int k = 0; k < around; ++k) {
-      const double polar = M_PI * i / (circles + 1), azimuth = 2.0 * M_PI * k / around;
-      obj << "v " << std::sin(polar) * std::cos(azimuth) << ' '
-          << std::sin(polar) * std::sin(azimuth) << ' ' << std::cos(polar) << '\n';
+      const double azimuth = 2.0 * M_PI * k / around;
+      obj << "v " << radius * std::cos(azimuth) << ' ' << radius * std::sin(azimuth) << ' '
+          << height << '\n';
     }
+  }
   const auto at = [](int circle, int k) { return 3 + circle * around + k % around; };
   for (int k = 0; k < around; ++k) {
     obj << "f 1 " << at(0, k) << ' ' << at(0, k + 1) << '\n';
@@ -59,26 +68,26 @@ Eigen::Vector3d half_size(const Geometry& shape) {
   return 0.5 * size;
 }
 
-// Into the box around what the body collides as.
-Geometry ellipsoid_for(const Body& body, const std::string& ball) {
+// Into the box around what the body collides as, and slimmer, so that it meets no other in the movement.
+Geometry cylinder_for(const Body& body, const std::string& mesh) {
   Eigen::AlignedBox3d box;
   for (const Geometry& shape : body.collisions) {
     const Eigen::Vector3d half = half_size(shape);
     box.extend(Eigen::AlignedBox3d(-half, half).transformed(shape.X_body_shape));
   }
-  Geometry ellipsoid;
-  ellipsoid.type = Geometry::Type::mesh;
-  ellipsoid.mesh = ball;
-  ellipsoid.scale = 0.5 * box.sizes();
-  ellipsoid.X_body_shape.translation() = box.center();
-  return ellipsoid;
+  Geometry cylinder;
+  cylinder.type = Geometry::Type::mesh;
+  cylinder.mesh = mesh;
+  cylinder.scale = slimness * 0.5 * box.sizes();
+  cylinder.X_body_shape.translation() = box.center();
+  return cylinder;
 }
 
-RobotModel made(const std::string& ball) {
-  write_whole(ball, ball_as_obj());
+RobotModel made(const std::string& mesh) {
+  write_whole(mesh, cylinder_as_obj());
   RobotModel model = pa10();
-  model.base.collisions = {ellipsoid_for(model.base, ball)};
-  for (Body& body : model.bodies) body.collisions = {ellipsoid_for(body, ball)};
+  model.base.collisions = {cylinder_for(model.base, mesh)};
+  for (Body& body : model.bodies) body.collisions = {cylinder_for(body, mesh)};
   return model;
 }
 
@@ -86,7 +95,7 @@ RobotModel made(const std::string& ball) {
 
 const RobotModel& mesh_arm() {
   static const Folder folder;
-  static const RobotModel model = made(folder.file("ball.obj"));
+  static const RobotModel model = made(folder.file("cylinder.obj"));
   return model;
 }
 
