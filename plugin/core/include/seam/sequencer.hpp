@@ -56,7 +56,7 @@ class Sequencer {
   /// Slows down (rate < 1), speeds up (> 1) or pauses (0) the whole sequence: its time moves smoothly to another rate over a
   /// time [s] > 0, on the same path, with every method (see TimeScale). For a pause this is the way; a large tau is not, for
   /// with v = τẏ an arm that moves would go on moving. While the rate moves every step is of another
-  /// length and needs a propagator of its own: 1.0 µs instead of 0.12 µs for 7 coordinates × 10 kernels (`make micro`).
+  /// length and needs a propagator of its own, which takes more than twice the time (`make micro`).
   bool set_rate(double rate, double over) noexcept;
   /// Continues what runs now from a state, e.g. a measured one, at its present phase and at rate 1; what still waits for its
   /// beginning waits there, at rest. False where the state will not do.
