@@ -29,8 +29,9 @@ using Points = std::vector<Vector3d>;
 const std::string pa10 = SEAM_ASSETS "/pa10/pa10.urdf";
 
 /// A link that collides as a mesh.
-seam::RobotModel of_one_mesh(const std::string& mesh) {
+seam::RobotModel of_one_mesh(const std::string& mesh, double scale) {
   seam::Geometry geometry;
+  geometry.scale.setConstant(scale);
   geometry.type = seam::Geometry::Type::mesh;
   geometry.mesh = mesh;
   seam::RobotModel model;
@@ -48,11 +49,11 @@ Points points_of(const std::string& mesh) {
 }
 
 /// The vertices of the hull that a mesh collides as.
-Points hull_of(const std::string& mesh, double tolerance) {
+Points hull_of(const std::string& mesh, double tolerance, double scale = 1.0) {
   seam::World world;
   seam::RobotSettings settings;
   settings.hull_tolerance = tolerance;
-  seam::Robot robot(of_one_mesh(mesh), *world, settings);
+  seam::Robot robot(of_one_mesh(mesh, scale), *world, settings);
   const auto& compound = static_cast<const btCompoundShape&>(
       *robot.multibody().getBaseCollider()->getCollisionShape());
   const auto& hull = static_cast<const btConvexHullShape&>(*compound.getChildShape(0));
@@ -142,6 +143,13 @@ TEST_P(HullTolerance, IsHeldByEveryPointOfTheMesh) {
 
 INSTANTIATE_TEST_SUITE_P(OfThePa10, HullTolerance,
                          testing::Values("S1_steel.obj", "E2_sky_blue.obj", "hand_steel.obj"));
+
+TEST(HullTolerance, DoesTheSameAtAnySize) {
+  const std::string mesh = SEAM_ASSETS "/pa10/meshes/E2_sky_blue.obj";
+  const std::size_t count = hull_of(mesh, 2e-3).size();
+  for (const double scale : {1e-3, 1e-2, 1e2, 1e6})
+    EXPECT_NEAR(hull_of(mesh, scale * 2e-3, scale).size(), count, 2) << scale;
+}
 
 TEST(HullTolerance, OfZeroKeepsTheExactHull) {
   const std::string mesh = SEAM_ASSETS "/pa10/meshes/E2_sky_blue.obj";

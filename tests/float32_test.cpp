@@ -1,4 +1,7 @@
 // seam::bullet-float32: what is left of the accuracy where Bullet computes in float.
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <gmock/gmock.h>
 
 #include "plugin/examples/example.hpp"
@@ -173,5 +176,18 @@ INSTANTIATE_TEST_SUITE_P(, Float32,
                          testing::Values(SEAM_ASSETS "/pa10/pa10.urdf",
                                          SEAM_TEST_DATA "/lift_arm.urdf",
                                          SEAM_TEST_DATA "/skew_tree.urdf"));
+
+TEST(Float32OfMeshes, HullsHaveFewVerticesAndBodiesThatNeverMeetAreLeftOut) {
+  seam::RobotModel model = seam::RobotModel::read(SEAM_ASSETS "/pa10/pa10.urdf");
+  model.base.collisions = {model.base.visuals.front()};  // a mesh
+  World world;
+  seam::Robot arm(model, world.bullet);
+  const auto& compound =
+      static_cast<const btCompoundShape&>(*arm.multibody().getBaseCollider()->getCollisionShape());
+  const auto& hull = static_cast<const btConvexHullShape&>(*compound.getChildShape(0));
+  EXPECT_LT(hull.getNumPoints(), 120);
+  const auto* third = arm.multibody().getLinkCollider(2);
+  EXPECT_FALSE(third->checkCollideWith(arm.multibody().getLinkCollider(4)));
+}
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <LinearMath/btAlignedObjectArray.h>
-#include <LinearMath/btVector3.h>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace seam {
 
@@ -10,7 +11,6 @@ namespace seam {
 /// one and the same.
 /// @param points     finite, at least one
 /// @param tolerance  [m] counts as 1e-5 of the size if it is less, which rounding could not tell from 0
-btAlignedObjectArray<btVector3> few_vertices(btAlignedObjectArray<btVector3> points,
-                                             double tolerance);
+std::vector<Eigen::Vector3d> few_vertices(std::vector<Eigen::Vector3d> points, double tolerance);
 
 }  // namespace seam

@@ -24,6 +24,7 @@ bool LinkCollider::is_within_limits(const NeverMet& pair) const {
 
 // That they had when joints were beyond their limits: Bullet keeps the contacts of a pair that it no longer looks at.
 void LinkCollider::forget_contacts(const LinkCollider& other) const {
+  if (!m_broadphaseHandle || !other.m_broadphaseHandle) return;  // not in the world
   btOverlappingPairCache& pairs = *world_.getPairCache();
   btBroadphasePair* const pair = pairs.findPair(m_broadphaseHandle, other.m_broadphaseHandle);
   if (pair && pair->m_algorithm) pairs.cleanOverlappingPair(*pair, world_.getDispatcher());

@@ -26,7 +26,7 @@ bool is_within_limits(const Joint& joint, double q) {
   return q >= joint.lower - beyond_limits && q <= joint.upper + beyond_limits;
 }
 
-btScalar between_spheres(const btConvexShape& a, const btConvexShape& b, const btTransform& X_a_b) {
+double between_spheres(const btConvexShape& a, const btConvexShape& b, const btTransform& X_a_b) {
   btVector3 centre_a, centre_b;
   btScalar radius_a, radius_b;
   a.getBoundingSphere(centre_a, radius_a);
@@ -35,17 +35,18 @@ btScalar between_spheres(const btConvexShape& a, const btConvexShape& b, const b
 }
 
 Distance distance(const btConvexShape& a, const btConvexShape& b, const btTransform& X_a_b,
-                  btScalar far) {
-  const auto furthest = [&](const btVector3& direction) {
-    return X_a_b * b.localGetSupportingVertex(direction * X_a_b.getBasis()) -
-           a.localGetSupportingVertex(-direction);
+                  double far) {
+  const auto furthest = [&](const Vector3d& to) {
+    const btVector3 direction = bullet_vector(to);
+    return eigen_vector(X_a_b * b.localGetSupportingVertex(direction * X_a_b.getBasis()) -
+                        a.localGetSupportingVertex(-direction));
   };
-  return distance_from_origin(furthest, btScalar(apart), far);
+  return distance_from_origin(furthest, apart, far);
 }
 
 /// The smaller bounds of all pairs of parts, or that they are `far` apart or more.
 /// @param count  is raised by the number of distances of parts that were needed
-Distance distance(const BodyShape& a, const BodyShape& b, const btTransform& X_a_b, btScalar far,
+Distance distance(const BodyShape& a, const BodyShape& b, const btTransform& X_a_b, double far,
                   int& count) {
   Distance least;
   least.at_least = far;
@@ -137,7 +138,7 @@ class Proof {
                                                : first_.X_parent_body_at(cell.centre(0));
     const Isometry3d X_a_b = X_a_over * second_.X_parent_body_at(cell.centre(1));
     const double moved = reach_.dot(cell.half);
-    const auto far = static_cast<btScalar>(apart + moved);
+    const double far = apart + moved;
     const Distance at_centre =
         distance(*a_.shape, *b_.shape,
                  bullet_pose(a_.X_body_link.inverse() * X_a_b * b_.X_body_link), far, distances_);

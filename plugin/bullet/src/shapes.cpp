@@ -20,16 +20,15 @@ namespace {
 constexpr double margin = 1e-3;   // [m] Bullet's 40 mm would round off edges and blow up hulls
 constexpr double farthest = 1e9;  // [m] as in a URDF
 
-btAlignedObjectArray<btVector3> points_of(const Geometry& geometry) {
-  btAlignedObjectArray<btVector3> points;
+std::vector<Eigen::Vector3d> points_of(const Geometry& geometry) {
+  std::vector<Eigen::Vector3d> points;
   for (const Mesh& mesh : load_mesh(geometry.mesh)) {
     for (const auto& position : mesh.positions.colwise()) {
-      const Eigen::Vector3d point = position.cast<double>().cwiseProduct(geometry.scale);
-      const double most = point.cwiseAbs().maxCoeff();
+      points.emplace_back(position.cast<double>().cwiseProduct(geometry.scale));
+      const double most = points.back().cwiseAbs().maxCoeff();
       if (!(most <= farthest))
         throw Error(geometry.mesh,
                     text("coordinate ", most, " m, must be at most ", farthest, " in magnitude"));
-      points.push_back(bullet_vector(point));
     }
   }
   return points;
@@ -39,7 +38,8 @@ std::unique_ptr<btConvexShape> make_hull(const Geometry& geometry, double tolera
   const bool is_exact = tolerance == 0.0;
   auto points = points_of(geometry);
   if (!is_exact) points = few_vertices(std::move(points), tolerance);
-  auto hull = std::make_unique<btConvexHullShape>(&points[0].x(), points.size());
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Eigen::Vector3d& point : points) hull->addPoint(bullet_vector(point), false);
   if (is_exact) hull->optimizeConvexHull();
   hull->setMargin(btScalar(margin));
   hull->recalcLocalAabb();  // which keeps the margin that it is made with

@@ -24,8 +24,8 @@ struct RobotSettings {
   bool colliders = true;       // give the links collision shapes
   bool self_collision = true;  // between bodies that no joint joins
   double friction = 0.5;       // of the colliders
-  /// [m] No point of a mesh is further outside the hull that it collides as, nor further than a hundredth of the mesh's size (the
-  /// diagonal of its box). 0: the exact hull, of as many vertices as it has.
+  /// [m] No point of a mesh is further outside the hull that it collides as; nor further than a hundredth of the mesh's size
+  /// (the diagonal of its box). The fewer vertices, the faster the step. 0: the exact hull.
   double hull_tolerance = 2e-3;
 };
 
@@ -36,13 +36,13 @@ struct RobotSettings {
 /// (`setMaxCoordinateVelocity`). The URDF's limits are written to the links but, as everywhere in
 /// Bullet, nothing enforces them by itself.
 ///
-/// Neighbouring bodies (joined by one joint) do not collide; others do. Where two joints are between two bodies, and it is
-/// proved when the robot is made that they stay 20 mm apart, the two are not looked at while these joints are within their
-/// limits (and 0.01 rad or m beyond). The proof holds for the shapes that the robot is made with: an app that gives a collider another shape
-/// sets `self_collision` to false, or gives it to the model.
+/// Neighbouring bodies (joined by one joint) do not collide; others do. Bodies that are two joints apart are left out of
+/// Bullet's checks while these joints are within their limits (or at most 0.01 rad or m beyond), if a proof at construction found
+/// that the bodies stay 20 mm apart there, where Bullet makes no contacts. The proof holds for the shapes in the model:
+/// what else an app wants to hang on a link belongs there.
 ///
-/// A mesh collides as its convex hull, of which vertices are left out that stick out by less than `hull_tolerance`, and with
-/// 1 mm of Bullet's margin around it. With 2 mm this surface is nowhere more than 1 mm outside the exact hull, and nowhere more than 1 mm inside.
+/// A mesh collides as its convex hull, simplified (see `hull_tolerance`), with Bullet's margin of 1 mm around it. With a
+/// tolerance of 2 mm this surface is at most 1 mm outside the exact hull and at most 1 mm inside it.
 ///
 /// The base belongs to Bullet's static filter group: it meets what moves, not what is
 /// static. The world is borrowed: a robot that outlives it is only to be destroyed. Beside the colliders there is a
