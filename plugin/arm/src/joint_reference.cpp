@@ -198,24 +198,19 @@ void TaskSpace::require_reachable(const Primitive& primitive) {
 }
 
 bool TaskSpace::to_tool(const Sample& sample) noexcept {
-  target_at_ = sample.position;
-  target_.pose.translation() = sample.position.head<3>();
-  target_.velocity << sample.velocity.head<3>(), 0.0, 0.0, 0.0;
-  target_.acceleration << sample.acceleration.head<3>(), 0.0, 0.0, 0.0;
-  if (!turns()) {
-    target_.pose.linear() = reference_.toRotationMatrix();
-    return sample.position.allFinite();
-  }
-  OrientationState turned;
-  const RotationState turn{sample.position.tail<3>(), sample.velocity.tail<3>(),
-                           sample.acceleration.tail<3>()};
-  if (!to_orientation(turn, reference_, turned)) {
-    target_.pose = pose(sample.position);
+  OrientationState turned{reference_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  if (turns()) {
+    const RotationState turn{sample.position.tail<3>(), sample.velocity.tail<3>(),
+                             sample.acceleration.tail<3>()};
+    if (!to_orientation(turn, reference_, turned)) return false;
+  } else if (!sample.position.allFinite()) {
     return false;
   }
+  target_at_ = sample.position;
+  target_.pose.translation() = sample.position.head<3>();
   target_.pose.linear() = turned.orientation.toRotationMatrix();
-  target_.velocity.tail<3>() = turned.velocity;
-  target_.acceleration.tail<3>() = turned.acceleration;
+  target_.velocity << sample.velocity.head<3>(), turned.velocity;
+  target_.acceleration << sample.acceleration.head<3>(), turned.acceleration;
   return true;
 }
 
