@@ -51,25 +51,15 @@ Timed ticks(const std::shared_ptr<Play>& play, Ticks kind, int count) {
   return timed([=] { ((*play).*kind)(count); });
 }
 
-Pair with_and_without() {
+/// Two arms, each with a world of its own.
+Pair side_by_side(const RobotModel& model, Ticks kind, const RobotModel& beside,
+                  Ticks kind_beside) {
   constexpr int together = 20;
-  const auto with = std::make_shared<Play>(1);
-  const auto without = std::make_shared<Play>(1);
-  return {ticks(with, &Play::with_plugin, together),
-          ticks(without, &Play::without_plugin, together), together, [=] {
-            with->go_on(together);
-            without->go_on(together);
-          }};
-}
-
-Pair meshes_and_primitives() {
-  constexpr int together = 20;
-  const auto meshes = std::make_shared<Play>(1, mesh_arm());
-  const auto primitives = std::make_shared<Play>(1);
-  return {ticks(meshes, &Play::without_plugin, together),
-          ticks(primitives, &Play::without_plugin, together), together, [=] {
-            meshes->go_on(together);
-            primitives->go_on(together);
+  const auto a = std::make_shared<Play>(1, model);
+  const auto b = std::make_shared<Play>(1, beside);
+  return {ticks(a, kind, together), ticks(b, kind_beside, together), together, [=] {
+            a->go_on(together);
+            b->go_on(together);
           }};
 }
 
@@ -87,9 +77,11 @@ Pair many_and_one(Ticks kind, int count) {
 }  // namespace
 
 void add_world_benchmarks() {
-  add_pair("world step with the plug-in / without, same torques", no_bar, 3000, with_and_without);
-  add_pair("world step, meshes as colliders / boxes and cylinders", 1.33, 3000,
-           meshes_and_primitives);
+  add_pair("world step with the plug-in / without, same torques", no_bar, 3000,
+           [] { return side_by_side(pa10(), &Play::with_plugin, pa10(), &Play::without_plugin); });
+  add_pair("world step, meshes as colliders / boxes and cylinders", 1.33, 3000, [] {
+    return side_by_side(mesh_arm(), &Play::without_plugin, pa10(), &Play::without_plugin);
+  });
   struct Kind {
     std::string name;
     Ticks ticks;
