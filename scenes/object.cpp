@@ -99,18 +99,6 @@ class PouredGrains final : public Object {
   std::size_t part_ = 0;
 };
 
-class JointFriction final : public Object {
- public:
-  JointFriction(const Scene& scene, Robot& robot, double dt)
-      : friction_(robot, scene.robot.dof(), *scene.friction), dt_(dt) {}
-
-  void pre_tick(Eigen::Index) override { friction_.pre_tick(dt_); }
-
- private:
-  Friction friction_;
-  double dt_;
-};
-
 // A glass that stands where the goal is seen: nothing but a sight.
 class MovingGlass final : public Object {
  public:
@@ -146,11 +134,10 @@ bool has_moving_goal(const Scene& scene) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, double dt,
-                                                  int ticks, std::size_t place) {
+std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
+                                                  std::size_t place) {
   std::vector<std::unique_ptr<Object>> objects;
   if (scene.liquid) objects.push_back(std::make_unique<SloshingLiquid>(scene, robot, ticks));
-  if (scene.friction) objects.push_back(std::make_unique<JointFriction>(scene, robot, dt));
   if (scene.pouring) objects.push_back(std::make_unique<PouredGrains>(scene, robot, place));
   if (has_moving_goal(scene)) objects.push_back(std::make_unique<MovingGlass>(scene));
   return objects;

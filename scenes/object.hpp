@@ -25,9 +25,8 @@ class Object {
 
 /// What a scene has of them.
 /// @param robot   stands where the scene begins, and must outlive them
-/// @param dt      [s] Bullet's tick
 /// @param place   index of the glass's place
-std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, double dt,
-                                                  int ticks, std::size_t place);
+std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
+                                                  std::size_t place);
 
 }  // namespace seam

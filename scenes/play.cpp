@@ -31,21 +31,41 @@ Recording room_for(const Scene& scene, int ticks) {
   return recording;
 }
 
+// The joints' state before a tick, and what is recorded of it.
+class Joints {
+ public:
+  Joints(const Scene& scene, const Robot& robot)
+      : robot_(robot), q_(Eigen::VectorXd::Zero(scene.robot.dof())), qd_(q_) {
+    if (scene.tool && scene.simulated.is_elastic())
+      space_.emplace(scene.robot, scene.sequence, *scene.tool, scene.start);
+  }
+  void look() { robot_.state(q_, qd_); }
+  void record(const Controller::Tick& tick, Eigen::Index row, Recording& recording) {
+    recording.q.row(row) = q_;
+    recording.qd.row(row) = qd_;
+    if (!recording.in_task_space()) return;
+    const ToolError error = space_ ? space_->miss(tick.sequence, q_) : tick.tool_error;
+    recording.tool_error_m(row) = error.distance;
+    recording.tool_error_rad(row) = error.angle;
+  }
+
+ private:
+  const Robot& robot_;
+  Eigen::VectorXd q_, qd_;
+  std::optional<TaskSpace> space_;  // where the controller sees the motors, and not the tool
+};
+
 void record(const Controller::Tick& tick, double time, Eigen::Index row, Recording& recording) {
   recording.time(row) = time;
   recording.running(row) = tick.running;
   recording.ref.row(row) = tick.reference.position;
   recording.ref_vel.row(row) = tick.reference.velocity;
   recording.ref_acc.row(row) = tick.reference.acceleration;
-  recording.q.row(row) = tick.q;
-  recording.qd.row(row) = tick.qd;
   recording.torque.row(row) = tick.torque;
   if (!recording.in_task_space()) return;
   recording.tool_ref.row(row) = tick.sequence.position;
   recording.tool_vel.row(row) = tick.sequence.velocity;
   recording.tool_acc.row(row) = tick.sequence.acceleration;
-  recording.tool_error_m(row) = tick.tool_error.distance;
-  recording.tool_error_rad(row) = tick.tool_error.angle;
 }
 
 bool linear(const Scene& scene, Eigen::Index coordinate) {
@@ -91,7 +111,9 @@ void add_joins(const Scene& scene, const Sequencer& sequencer, std::vector<Recor
 Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
                   Replay* replay = nullptr) {
   World world;
-  Robot robot(scene.simulated, *world);
+  RobotSettings settings;
+  settings.encoders = scene.encoders;
+  Robot robot(scene.simulated, *world, settings);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(robot.dof());
   start.head(scene.start.size()) = scene.start;
   robot.reset(start, Eigen::VectorXd::Zero(robot.dof()));
@@ -101,21 +123,27 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
 
   const int ticks = scene.ticks(dt);
   Recording recording = room_for(scene, ticks);
-  const auto objects = make_objects(scene, robot, dt, ticks, place);
+  const auto objects = make_objects(scene, robot, ticks, place);
   std::optional<Film> film;
   if (replay) film.emplace(scene, method, robot, objects, dt, ticks, *replay);
+  Joints joints(scene, robot);
+  int limited = 0;
   auto event = scene.events.begin();
   for (int k = 0; k < ticks; ++k) {
     for (; event != scene.events.end() && event->at <= (k + same_tick) * dt; ++event)
       happen(*event, scene, k * dt, controller.sequencer(), recording.joins);
     for (const auto& object : objects) object->pre_tick(k);
     if (film) film->pre_tick(k);
+    joints.look();
     world->stepSimulation(dt, 0);
     record(controller.last_tick(), k * dt, k, recording);
+    joints.record(controller.last_tick(), k, recording);
+    limited += controller.limited() ? 1 : 0;
   }
   for (const auto& object : objects) object->finish(recording);
   const bool stopped = controller.status() == Controller::Status::stopped;
   recording.outcomes.push_back({"stopped_share", stopped ? 1.0 : 0.0});
+  recording.outcomes.push_back({"limited_share", static_cast<double>(limited) / ticks});
   if (controller.incident().cause != Incident::Cause::none)
     recording.incident = controller.what_happened();
   add_joins(scene, controller.sequencer(), recording.joins);

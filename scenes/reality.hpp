@@ -5,14 +5,14 @@
 
 namespace seam {
 
-/// The keys `actuator`, `friction`, `sensors`, `guard` and `model_error` of a scene (see scenes/README.md). What is set per joint is a
-/// number for all, or a map of joints.
+/// What a scene says of how its arm is not ideal, and of the controller that copes: the keys `rotor_inertia`, `friction`, `elastic`,
+/// `actuator`, `sensors`, `model_error`, `known`, `control` and `guard` (see scenes/README.md). What is set per joint is a number
+/// for all, or a map of joints. They are read from the file of the arm that the scene names, if any, and then from the scene
+/// itself, which changes what it gives.
 /// @throws Error  names file, line and key
-ActuatorSettings read_actuator(const YamlEntry& entry, const RobotModel& robot);
-FrictionSettings read_friction(const YamlEntry& entry, const RobotModel& robot);
-SensorSettings read_sensor(const YamlEntry& entry, const RobotModel& robot);
-GuardSettings read_guard(const YamlEntry& entry, const RobotModel& robot);
-/// Falsifies the scene's robot as the controller takes it to be, or loads the one that is simulated.
-void read_model_error(const YamlEntry& entry, Scene& scene);
+void read_reality(const YamlEntry& scene_file, Scene& scene);
+
+/// Where an arm of this name is looked for: NAME.yaml beside the robot's URDF.
+std::string named_arm(const std::string& urdf, const std::string& name);
 
 }  // namespace seam

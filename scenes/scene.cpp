@@ -23,8 +23,8 @@ constexpr double most_ticks = 1e7;
 void read_robot(const YamlEntry& entry, Scene& scene) {
   entry.only({"urdf", "start"});
   const YamlEntry urdf = entry.at("urdf");
-  const std::string path = urdf.path();
-  scene.robot = at_key(urdf, [&] { return RobotModel::read(path); });
+  scene.urdf = urdf.path();
+  scene.robot = at_key(urdf, [&] { return RobotModel::read(scene.urdf); });
   scene.start = scene.robot.neutral();
   const auto start = entry.find("start");
   if (!start) return;
@@ -67,20 +67,6 @@ double read_tick(const YamlEntry& entry) {
   const double dt = entry.positive();
   if (dt < least_tick || dt > largest_tick) entry.fail(entry.text() + ", must be in 1e-6 to 0.1 s");
   return dt;
-}
-
-ControlSettings read_control(const YamlEntry& entry) {
-  entry.only({"Kp", "Kd", "reference"});
-  ControlSettings control;
-  if (const auto Kp = entry.find("Kp")) control.Kp = Kp->not_negative();
-  if (const auto Kd = entry.find("Kd")) control.Kd = Kd->not_negative();
-  if (const auto reference = entry.find("reference")) {
-    if (reference->text() == "plain")
-      control.reference = ControlSettings::Reference::plain;
-    else if (reference->text() != "matched")
-      reference->fail("\"" + reference->text() + "\", must be matched or plain");
-  }
-  return control;
 }
 
 double at_most(const YamlEntry& entry, double seconds) {
@@ -171,10 +157,10 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
                   const std::vector<std::string>& allowed) {
   const YamlEntry root = YamlEntry::read(path, overrides, with_own_folders(allowed));
   root.require_format("seam-scene", 1);
-  root.only({"format",      "title",  "robot",   "tool",     "liquid",   "pouring",
-             "sequence",    "events", "control", "actuator", "friction", "sensors",
-             "model_error", "guard",  "method",  "seed",     "dt",       "settle",
-             "duration",    "speed",  "camera",  "table",    "figure"});
+  root.only({"format",        "title",       "robot",   "arm",    "tool",     "liquid",   "pouring",
+             "sequence",      "events",      "control", "known",  "actuator", "friction", "elastic",
+             "rotor_inertia", "model_error", "sensors", "guard",  "method",   "seed",     "dt",
+             "settle",        "duration",    "speed",   "camera", "table",    "figure"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -186,16 +172,9 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   scene.simulated = scene.robot;
   if (const auto liquid = root.find("liquid")) read_liquid(*liquid, scene);
   if (const auto pouring = root.find("pouring")) read_pouring(*pouring, scene);
-  if (const auto error = root.find("model_error")) read_model_error(*error, scene);
+  read_reality(root, scene);
   read_steps(root.at("sequence"), scene);
   if (tool) start_with_tool(*tool, scene);
-  if (const auto control = root.find("control")) scene.control = read_control(*control);
-  if (const auto actuator = root.find("actuator"))
-    scene.actuator = read_actuator(*actuator, scene.robot);
-  if (const auto friction = root.find("friction"))
-    scene.friction = read_friction(*friction, scene.robot);
-  if (const auto sensors = root.find("sensors")) scene.sensor = read_sensor(*sensors, scene.robot);
-  if (const auto guard = root.find("guard")) scene.guard = read_guard(*guard, scene.robot);
   if (const auto method = root.find("method"))
     scene.method = at_key(*method, [&] { return join_from_name(method->text()); });
   if (const auto dt = root.find("dt")) scene.dt = read_tick(*dt);

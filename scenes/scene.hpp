@@ -8,7 +8,6 @@
 
 #include "scenes/camera.hpp"
 #include "scenes/event.hpp"
-#include "scenes/friction.hpp"
 #include "scenes/grains.hpp"
 #include "scenes/liquid.hpp"
 #include <seam/controller.hpp>
@@ -37,8 +36,11 @@ struct Scene {
   std::string title;                   // one line
   std::string text;                    // the file as it stands
   std::vector<std::string> overrides;  // with which it was read
+  std::string urdf;                    // path of the robot's
+  std::string arm = "ideal";           // how it differs from an ideal one: name of its file
   RobotModel robot;                    // as the controller takes it to be
   RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
+  RobotSettings::Encoders encoders = RobotSettings::Encoders::motor;
   std::optional<LiquidSettings> liquid;                            // that moves
   Eigen::Isometry3d X_link_glass = Eigen::Isometry3d::Identity();  // of its glass, in the tool's
   std::optional<Pouring> pouring;
@@ -48,7 +50,6 @@ struct Scene {
   std::vector<std::string> primitive_names;  // one per step of the sequence
   ControlSettings control;
   ActuatorSettings actuator;
-  std::optional<FrictionSettings> friction;  // unknown to the controller
   SensorSettings sensor;
   GuardSettings guard;
   std::optional<Join> method;  // with which `seam run` plays it unless told otherwise

@@ -38,12 +38,14 @@ Actuator::Actuator(const RobotModel& model, const ActuatorSettings& settings)
 
 const Eigen::VectorXd& Actuator::deliver(double dt, const Eigen::VectorXd& commanded) noexcept {
   if (ideal_) return commanded;
+  limited_ = false;
   for (Eigen::Index i = 0; i < delivered_.size(); ++i) {
     const double step = quantum_(i);
     const double command = step > 0.0 ? step * std::round(commanded(i) / step) : commanded(i);
     const double wanted = within(command, limit_(i));
     const double change = wanted - driven_(i);
     const double most = rate_(i) * dt;
+    limited_ |= wanted != command || (begun_ && std::abs(change) > most);
     driven_(i) = !begun_ || std::abs(change) <= most ? wanted : driven_(i) + within(change, most);
     delivered_(i) = begun_ && lag_(i) > 0.0
                         ? delivered_(i) - std::expm1(-dt / lag_(i)) * (driven_(i) - delivered_(i))

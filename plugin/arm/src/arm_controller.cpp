@@ -52,13 +52,6 @@ ArmController::Tick tick_at(const RobotModel& model, const Eigen::VectorXd& q,
   return tick;
 }
 
-const ControlSettings& valid(const ControlSettings& settings) {
-  for (const double gain : {settings.Kp, settings.Kd})
-    if (!(std::isfinite(gain) && gain >= 0.0))
-      throw Error("controller", "gain " + std::to_string(gain) + ", must be >= 0");
-  return settings;
-}
-
 // All but the jerk, which the sequencer does not keep up to date.
 void take_over(const Sample& motion, Sample& into) {
   into.position = motion.position;
@@ -75,7 +68,7 @@ ArmController::ArmController(const RobotModel& model, const Sequence& sequence,
       next_(tick_.reference),
       joints_(reference(model, sequence, settings.tool, q)),
       sequencer_(sequence, join, joints_->measured(q, qd)),
-      law_(InverseDynamics(model), valid(settings.law)),
+      law_(model, settings.law),
       guard_(model, settings.guard, settings.sensor.delay),
       offset_(model.dof()),
       actuator_(model, settings.actuator),
@@ -158,7 +151,7 @@ void ArmController::watch(bool there) noexcept {
   if (!there) return bridge();
   if (blind_) regain();
   blind_ = false;
-  const Incident off = guard_.deviation(q(), tick_.reference.position);
+  const Incident off = guard_.deviation(q(), tick_.reference.position, tick_.torque);
   if (off.cause != Incident::Cause::none) stop_here(off);
 }
 
@@ -211,6 +204,7 @@ void ArmController::plan(double dt) noexcept {
 }
 
 void ArmController::command(double dt, bool there) noexcept {
+  if (actuator_.limited() || status_ == Status::stopped) law_.hold_observer();
   if (there)
     law_.torque(dt, q(), qd(), tick_.reference, next_.position, tick_.torque);
   else

@@ -23,6 +23,11 @@ double slack(const Joint& joint, double share) {
   return std::isinf(share) || std::isinf(range) ? infinity : share * range;
 }
 
+// 0 where there is no limit.
+double least_torque(const Joint& joint, double share) {
+  return std::isinf(joint.effort) || std::isinf(share) ? 0.0 : share * joint.effort;
+}
+
 const char* unit(const Joint& joint) {
   return joint.type == Joint::Type::prismatic ? " m" : " rad";
 }
@@ -58,6 +63,7 @@ std::string describe(const Incident& incident, const RobotModel& robot) {
 Guard::Guard(const RobotModel& model, const GuardSettings& settings, double delay)
     : settings_(settings),
       most_error_(settings.most_error.each(model.dof())),
+      least_torque_(model.dof()),
       least_(model.dof()),
       most_(model.dof()),
       seen_q_(Eigen::VectorXd::Zero(model.dof())),
@@ -67,6 +73,7 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings, double dela
       upper_(model.dof()),
       slack_(model.dof()),
       delay_(delay) {
+  require_bound("guard: least_effort", settings.least_effort);
   require_bound("guard: longest_dropout", settings.longest_dropout);
   require_bound("guard: frozen_beyond", settings.frozen_beyond);
   require_bound("guard: beyond_limits", settings.beyond_limits);
@@ -74,6 +81,7 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings, double dela
   for (const double bound : most_error_) require_bound("guard: most_error", bound);
   for (Eigen::Index i = 0; i < lower_.size(); ++i) {
     const Joint& joint = model.joints[static_cast<std::size_t>(i)];
+    least_torque_(i) = least_torque(joint, settings.least_effort);
     lower_(i) = joint.lower;
     upper_(i) = joint.upper;
     slack_(i) = slack(joint, settings.beyond_limits);
@@ -111,11 +119,11 @@ Incident Guard::dropout() const noexcept {
   return {Incident::Cause::no_state, 0.0, -1, dropout_, settings_.longest_dropout};
 }
 
-Incident Guard::deviation(const Eigen::VectorXd& q,
-                          const Eigen::VectorXd& reference) const noexcept {
+Incident Guard::deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference,
+                          const Eigen::VectorXd& torque) const noexcept {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const double error = std::abs(q(i) - reference(i));
-    if (error > most_error_(i))
+    if (error > most_error_(i) && std::abs(torque(i)) >= least_torque_(i))
       return {Incident::Cause::deviation, 0.0, static_cast<int>(i), error, most_error_(i)};
   }
   return {};

@@ -235,6 +235,11 @@ Eigen::Isometry3d Joint::X_parent_body_at(double q) const {
   return X;
 }
 
+bool RobotModel::is_elastic() const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const Joint& joint) { return joint.is_elastic(); });
+}
+
 int RobotModel::joint(const std::string& joint_name) const {
   const auto found = std::find_if(joints.begin(), joints.end(), [&](const Joint& candidate) {
     return candidate.name == joint_name;

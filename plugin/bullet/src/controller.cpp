@@ -1,7 +1,5 @@
 #include <algorithm>
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-
 #include <seam/controller.hpp>
 #include <seam/error.hpp>
 #include <seam/plugin.hpp>
@@ -22,12 +20,9 @@ const RobotModel& known(const RobotModel& all, const std::optional<RobotModel>& 
 }
 
 const Eigen::VectorXd& look(const Robot& robot, Eigen::VectorXd& q, Eigen::VectorXd& qd) {
-  robot.state(q, qd);
+  robot.measured_state(q, qd);
   return q;
 }
-
-// Moves nothing: see apply_torque.
-constexpr double mark = 0.1234567890123;  // [N·m]
 
 }  // namespace
 
@@ -44,7 +39,6 @@ Controller::Controller(Robot& robot, const Sequence& sequence, const JoinSetting
       claim_(robot),
       q_(Eigen::VectorXd::Zero(known(robot.model(), settings.model).dof())),
       qd_(q_),
-      applied_(q_),
       arm_(known(robot.model(), settings.model), sequence, join, settings, look(robot, q_, qd_),
            qd_) {}
 
@@ -53,31 +47,15 @@ Controller::~Controller() {
 }
 
 bool Controller::reinitialise() noexcept {
-  robot_.state(q_, qd_);
+  robot_.measured_state(q_, qd_);
   return arm_.reinitialise(q_, qd_);
 }
 
 void Controller::pre_tick(double dt) noexcept {
   if (!(dt > 0.0)) return;
-  robot_.state(q_, qd_);
+  robot_.measured_state(q_, qd_);
   arm_.set_gravity(robot_.gravity_in_base());
-  apply_torque(arm_.tick(dt, q_, qd_));
-}
-
-// Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base
-// multibody bears a torque that moves nothing and is cleared with them: if it is still what we left,
-// our joint torques still stand too.
-void Controller::apply_torque(const Eigen::VectorXd& torque) noexcept {
-  btMultiBody& multibody = robot_.multibody();
-  const bool still_stands = marked_ && multibody.getBaseTorque().x() == base_torque_;
-  for (int i = 0; i < torque.size(); ++i) {
-    const double applied = still_stands ? applied_(i) : 0.0;
-    multibody.getLink(i).m_jointTorque[0] += static_cast<btScalar>(torque(i) - applied);
-    applied_(i) = torque(i);
-  }
-  if (!still_stands) multibody.addBaseTorque(btVector3(btScalar(mark), 0, 0));
-  base_torque_ = multibody.getBaseTorque().x();
-  marked_ = true;
+  robot_.drive(dt, arm_.tick(dt, q_, qd_));
 }
 
 }  // namespace seam

@@ -5,12 +5,14 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "bullet_types.hpp"
+#include "drive_train.hpp"
 #include "link_collider.hpp"
 #include "multibody.hpp"
 #include "shapes.hpp"
 #include "text.hpp"
 #include "world_watch.hpp"
 #include <seam/error.hpp>
+#include <seam/inverse_dynamics.hpp>
 #include <seam/robot.hpp>
 
 namespace seam {
@@ -19,6 +21,15 @@ namespace {
 
 constexpr int base_dof =
     6;  // that a multibody's velocity vector begins with, also where the base is fixed
+
+constexpr double mark =
+    0.1234567890123;  // [N·m] on the base, which moves nothing: see Robot::drive
+
+// What is simulated of a model's joints.
+DriveTrain drive_train(const RobotModel& model, btMultiBody& multibody, bool simulated) {
+  if (simulated) return {model, multibody};
+  return {RobotModel(), multibody};
+}
 
 // Bullet takes an inertia below its precision's for none, and does not move the joint.
 void warn_of_small_inertia(RobotModel& model) {
@@ -54,6 +65,7 @@ struct Robot::Parts {
   void find_what_never_meets();
   void add_to_world();
   void place_colliders();
+  void rest_drives(const Eigen::Vector3d& gravity);
 
   RobotModel model;
   btMultiBodyDynamicsWorld& world;
@@ -64,12 +76,22 @@ struct Robot::Parts {
   btAlignedObjectArray<btQuaternion> rotations;  // workspaces of place_colliders
   btAlignedObjectArray<btVector3> origins;
   std::optional<WorldWatch> watch;
+  std::optional<DriveTrain> drives;
+  bool sees_motors;          // the encoders do
+  Eigen::VectorXd torque;    // n, of the drives, and what of it reaches the bodies
+  Eigen::VectorXd applied;   // n, that of ours which still stands in the multibody
+  btScalar base_torque = 0;  // on the base, as we left it
+  bool marked = false;
   std::shared_ptr<bool> controlled = std::make_shared<bool>(false);
 };
 
 Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
                     const RobotSettings& settings)
-    : model(std::move(robot_model)), world(in_world) {
+    : model(std::move(robot_model)),
+      world(in_world),
+      sees_motors(settings.encoders == RobotSettings::Encoders::motor),
+      torque(Eigen::VectorXd::Zero(model.dof())),
+      applied(torque) {
   require_one_precision();
   require_tolerance(settings.hull_tolerance);
   warn_of_small_inertia(model);
@@ -85,6 +107,7 @@ Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
     if (settings.self_collision) find_what_never_meets();
   }
   add_to_world();
+  drives.emplace(drive_train(model, *multibody, settings.joint_dynamics));
 }
 
 Robot::Parts::~Parts() {
@@ -146,13 +169,29 @@ void Robot::Parts::place_colliders() {
   }
 }
 
+// With springs that bear what holds the arm up.
+void Robot::Parts::rest_drives(const Eigen::Vector3d& gravity) {
+  Eigen::VectorXd holding = Eigen::VectorXd::Zero(model.dof());
+  if (model.is_elastic()) {
+    const Eigen::VectorXd rest = holding;
+    Eigen::VectorXd q = holding;
+    for (int i = 0; i < model.dof(); ++i) q(i) = multibody->getJointPos(i);
+    InverseDynamics dynamics(model);
+    dynamics.set_gravity(gravity);
+    dynamics.torque(q, rest, rest, holding);
+  }
+  drives->reset(holding);
+}
+
 Robot Robot::load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
                   const RobotSettings& settings) {
   return Robot(RobotModel::read(urdf_path, settings.urdf), world, settings);
 }
 
 Robot::Robot(RobotModel model, btMultiBodyDynamicsWorld& world, const RobotSettings& settings)
-    : parts_(std::make_unique<Parts>(std::move(model), world, settings)) {}
+    : parts_(std::make_unique<Parts>(std::move(model), world, settings)) {
+  parts_->rest_drives(gravity_in_base());
+}
 Robot::Robot(Robot&&) noexcept = default;
 Robot& Robot::operator=(Robot&&) noexcept = default;
 Robot::~Robot() = default;
@@ -184,6 +223,37 @@ void Robot::state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd)
   }
 }
 
+void Robot::measured_state(Eigen::Ref<Eigen::VectorXd> q,
+                           Eigen::Ref<Eigen::VectorXd> qd) const noexcept {
+  state(q, qd);
+  if (parts_->sees_motors) parts_->drives->state_of_drives(q, qd);
+}
+
+// Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base
+// multibody bears a torque that moves nothing and is cleared with them: if it is still what we left,
+// our joint torques still stand too.
+void Robot::drive(double dt, const Eigen::VectorXd& torque) noexcept {
+  assert(torque.size() <= dof());
+  btMultiBody& robot = multibody();
+  Parts& parts = *parts_;
+  const auto joint_torque = [&](int i) -> btScalar& { return robot.getLink(i).m_jointTorque[0]; };
+  const bool still_stands = parts.marked && robot.getBaseTorque().x() == parts.base_torque;
+  if (still_stands && parts.drives->is_there()) {
+    for (int i = 0; i < dof(); ++i) joint_torque(i) -= static_cast<btScalar>(parts.applied(i));
+    parts.applied.setZero();
+  }
+  parts.torque << torque, Eigen::VectorXd::Zero(dof() - torque.size());
+  if (parts.drives->is_there()) parts.drives->transmit(dt, parts.torque);
+  for (int i = 0; i < dof(); ++i) {
+    const double applied = still_stands ? parts.applied(i) : 0.0;
+    joint_torque(i) += static_cast<btScalar>(parts.torque(i) - applied);
+    parts.applied(i) = parts.torque(i);
+  }
+  if (!still_stands) robot.addBaseTorque(btVector3(btScalar(mark), 0, 0));
+  parts.base_torque = robot.getBaseTorque().x();
+  parts.marked = true;
+}
+
 void Robot::reset(const Eigen::Ref<const Eigen::VectorXd>& q,
                   const Eigen::Ref<const Eigen::VectorXd>& qd) {
   assert(q.size() == dof() && qd.size() == dof());
@@ -192,6 +262,7 @@ void Robot::reset(const Eigen::Ref<const Eigen::VectorXd>& q,
     multibody().setJointVel(i, static_cast<btScalar>(qd[i]));
   }
   parts_->place_colliders();
+  parts_->rest_drives(gravity_in_base());
 }
 
 Eigen::Isometry3d Robot::X_world_base() const noexcept {

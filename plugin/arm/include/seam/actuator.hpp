@@ -33,6 +33,8 @@ class Actuator {
   /// @param dt  [s] > 0
   /// @return    what is delivered during the tick, n [N·m]
   const Eigen::VectorXd& deliver(double dt, const Eigen::VectorXd& commanded) noexcept;
+  /// In the last tick a joint's torque was held back by its effort limit or its rate.
+  bool limited() const noexcept { return limited_; }
   /// What is delivered now, if that was commanded last.
   const Eigen::VectorXd& delivered(const Eigen::VectorXd& commanded) const noexcept {
     return ideal_ ? commanded : delivered_;
@@ -44,6 +46,7 @@ class Actuator {
   Eigen::VectorXd driven_;     // u₃
   Eigen::VectorXd delivered_;  // t
   bool begun_ = false;
+  bool limited_ = false;
 };
 
 }  // namespace seam

@@ -116,6 +116,8 @@ class ArmController {
   Sequencer& sequencer() noexcept { return sequencer_; }
   const Sequencer& sequencer() const noexcept { return sequencer_; }  // to look at
   const Tick& last_tick() const noexcept { return tick_; }            // of the last call of `tick`
+  /// In it a drive was held back by its effort limit or its rate.
+  bool limited() const noexcept { return actuator_.limited(); }
 
  private:
   const Eigen::VectorXd& q() const noexcept { return sensor_.ideal() ? tick_.q : sensor_.q(); }

@@ -16,6 +16,9 @@ namespace SEAM_API seam {
 struct GuardSettings {
   PerJoint most_error =
       0.3;  // [rad or m] of a joint from its reference: a hit, or drives that are too weak
+  /// Share of a joint's effort limit that its drive must be asked for besides. A joint that has friction may be far behind, but
+  /// takes little torque to move; one that is lost takes all there is. Without an effort limit the error alone counts.
+  double least_effort = 0.5;
   double longest_dropout =
       0.1;  // [s] without a state that are bridged by the torque of the reference alone
   double frozen_beyond =
@@ -65,7 +68,9 @@ class Guard {
   void restart(const Eigen::VectorXd& q) noexcept;
 
   /// Which joint passes a bound, and with what; the cause is none where none does.
-  Incident deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference) const noexcept;
+  /// @param torque  n [N·m or N] that the drives were asked for
+  Incident deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference,
+                     const Eigen::VectorXd& torque) const noexcept;
   /// The same of a position that the joints should have.
   Incident beyond_limits(const Eigen::VectorXd& position) const noexcept;
   /// Moves the end of a motion back to a limit that it would pass; what is beyond one already may stay there.
@@ -74,6 +79,7 @@ class Guard {
  private:
   GuardSettings settings_;
   Eigen::VectorXd most_error_;        // n
+  Eigen::VectorXd least_torque_;      // n, that a deviation needs
   Eigen::VectorXd least_, most_;      // n, what the reference may be
   Eigen::VectorXd seen_q_, seen_qd_;  // n, the last state that was new
   Eigen::VectorXd reference_;         // n, then

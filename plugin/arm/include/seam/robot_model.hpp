@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -66,9 +67,13 @@ struct Joint {
   double speed = 0.0;   // [rad/s or m/s]; infinity if continuous and without a limit
   double effort = 0.0;  // [N·m or N]; likewise
 
-  // URDF's <dynamics>, ≥ 0; 0 where it gives none. Not simulated.
-  double damping = 0.0;   // [N·m·s/rad or N·s/m] torque against the velocity
-  double friction = 0.0;  // [N·m or N] torque against the motion, whatever its velocity
+  // What stands between drive and body, ≥ 0: see Robot, which simulates it, and ComputedTorque, which makes up for it.
+  double damping = 0.0;   // [N·m·s/rad or N·s/m] b, viscous friction; URDF's <dynamics damping>
+  double friction = 0.0;  // [N·m or N] c, Coulomb friction; URDF's <dynamics friction>
+  double rotor_inertia = 0.0;  // [kg m² or kg] J as the joint feels it: gear ratio² × the rotor's
+  double stiffness =
+      std::numeric_limits<double>::infinity();  // [N·m/rad or N/m] k of an elastic joint
+  double spring_damping = 0.0;                  // [N·m·s/rad or N·s/m] d beside this spring
 
   // A follower (URDF's mimic) is a joint like any other, with a torque of its own; it belongs at
   // q = multiplier·q_leader + offset.
@@ -77,6 +82,7 @@ struct Joint {
   double offset = 0.0;      // [rad or m]
 
   bool follows() const { return leader >= 0; }  // a leader
+  bool is_elastic() const { return stiffness < std::numeric_limits<double>::infinity(); }
   /// Pose of the body in its parent at q [rad or m].
   Eigen::Isometry3d X_parent_body_at(double q) const;
 };
@@ -112,6 +118,7 @@ struct RobotModel {
   std::vector<std::string> warnings;
 
   int dof() const { return static_cast<int>(joints.size()); }  // n
+  bool is_elastic() const;                                     // a joint is
   /// @throws Error  no joint of that name (lists those there are)
   int joint(const std::string& joint_name) const;
   /// @throws Error  no link of that name

@@ -34,9 +34,8 @@ struct ControllerSettings : ArmControllerSettings {
 /// Once per Bullet tick, before the forces are used, `pre_tick(dt)` reads the state, advances the
 /// sequence by dt, and adds the computed torque to the joints. `Plugin` makes those calls; an app
 /// that owns its tick callback makes them itself. It is right for any number of substeps, and
-/// leaves torques alone that the app adds. To tell substeps apart it adds a torque of 0.12 N·m to the
-/// fixed base, which moves nothing; an app that adds base torques from inside the tick would be in
-/// its way. One controller at a time for a robot, which is borrowed and must outlive it.
+/// leaves torques that the app adds alone (see Robot::drive, which it calls). One controller at a time for a robot, which is
+/// borrowed and must outlive it.
 class Controller {
  public:
   using Status = ArmController::Status;  // whether the joints do what the sequence says
@@ -68,11 +67,11 @@ class Controller {
   Sequencer& sequencer() noexcept { return arm_.sequencer(); }
   const Sequencer& sequencer() const noexcept { return arm_.sequencer(); }  // to look at
   const Tick& last_tick() const noexcept { return arm_.last_tick(); }       // of the last pre_tick
+  /// In it a drive was held back by its effort limit or its rate.
+  bool limited() const noexcept { return arm_.limited(); }
 
  private:
   friend class Plugin;
-
-  void apply_torque(const Eigen::VectorXd& torque) noexcept;
 
   // That a robot has one controller. It may be gone before that.
   class Claim {
@@ -88,11 +87,8 @@ class Controller {
 
   Robot& robot_;
   Claim claim_;
-  double base_torque_ = 0.0;  // [N·m] on the base, as we left it
-  bool marked_ = false;
   Plugin* plugin_ = nullptr;
-  Eigen::VectorXd q_, qd_;   // n, the robot's state
-  Eigen::VectorXd applied_;  // n [N·m] that of ours which still stands in the multibody
+  Eigen::VectorXd q_, qd_;  // n, what the encoders see
   ArmController arm_;
 };
 
