@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/allocation_guard.hpp"
+#include "tests/support.hpp"
 #include <seam/computed_torque.hpp>
 
 namespace seam {
@@ -17,10 +18,7 @@ constexpr Case cases[] = {{100.0, 90.0}, {400.0, 40.0}, {400.0, 4.0},
                           {400.0, 0.0},  {0.0, 40.0},   {0.0, 0.0}};
 
 TickGains gains(const Case& c, double dt) {
-  ControlSettings settings;
-  settings.Kp = c.Kp;
-  settings.Kd = c.Kd;
-  return TickGains(settings, dt);
+  return {c.Kp, c.Kd, dt};
 }
 
 // The poles of e' = e + dt·v', v' = v − dt(Kd'v + Kp'e) are those of ë = −Kd·ė − Kp·e over dt.
@@ -72,7 +70,7 @@ Eigen::VectorXd one(double value) {
 
 // At a constant acceleration of 10 rad/s², with ticks as they come; what the wheel does is integrated as Bullet does.
 struct Wheel {
-  ComputedTorque law{InverseDynamics(wheel()), {}};
+  ComputedTorque law{wheel(), {}};
   double time = 0.0;
   Eigen::VectorXd q = one(0.0), qd = one(0.0), torque = one(0.0);
 
@@ -130,6 +128,64 @@ TEST(ComputedTorque, WithoutAStateIsThatOfTheReference) {
   EXPECT_EQ(guard.allocations(), 0);
   wheel.tick(1e-3);
   EXPECT_NEAR(torque(0), wheel.torque(0), 1e-9);
+}
+
+// A wheel with a rotor and friction that the model knows, or not: what its torque is, by hand.
+TEST(ComputedTorque, MakesUpForRotorsAndFriction) {
+  RobotModel model = wheel();
+  model.joints[0].rotor_inertia = 0.05;
+  model.joints[0].damping = 3.0;
+  model.joints[0].friction = 2.0;
+  ControlSettings settings;
+  settings.friction_share = 0.7;
+  ComputedTorque law(model, settings);
+  Eigen::VectorXd torque = one(0.0);
+  const Sample now = Wheel::reference(0.001);
+  const double next_velocity = (Wheel::reference(0.002).position(0) - now.position(0)) / 1e-3;
+  law.start(one(next_velocity - 10.0 * 1e-3));
+  law.torque(1e-3, now.position, one(next_velocity - 10.0 * 1e-3), now,
+             Wheel::reference(0.002).position, torque);
+  EXPECT_NEAR(
+      torque(0),
+      (inertia + 0.05) * 10.0 + 0.7 * (3.0 * next_velocity + 2.0 * std::tanh(next_velocity / 0.02)),
+      1e-9);
+}
+
+TEST(ComputedTorque, HasGainsPerJoint) {
+  RobotModel model = wheel();
+  model.joints.push_back(model.joints[0]);
+  model.bodies.push_back(model.bodies[0]);
+  ControlSettings settings;
+  settings.Kp = Eigen::VectorXd(Eigen::Vector2d(100.0, 900.0));
+  settings.Kd = Eigen::VectorXd(Eigen::Vector2d(0.0, 0.0));
+  ComputedTorque law(model, settings);
+  const Sample rest = Sample::at_rest(Eigen::Vector2d::Zero());
+  Eigen::VectorXd torque = Eigen::Vector2d::Zero();
+  const Eigen::VectorXd off = Eigen::Vector2d(-1e-3, -1e-3);
+  law.torque(1e-6, off, rest.velocity, rest, rest.position, torque);
+  EXPECT_NEAR(torque(1) / torque(0), 9.0, 1e-3);
+}
+
+TEST(ComputedTorque, RefusesSettingsThatAreNone) {
+  const auto refused = [](const auto& set) {
+    ControlSettings settings;
+    set(settings);
+    return test::refusal([&] { ComputedTorque(wheel(), settings); });
+  };
+  EXPECT_EQ(refused([](ControlSettings& settings) { settings.Kp = -1.0; }),
+            "controller: gain Kp: -1.000000, must be >= 0");
+  EXPECT_EQ(refused([](ControlSettings& settings) {
+              settings.Kd = Eigen::VectorXd(Eigen::Vector3d::Ones());
+            }),
+            "controller: gain Kd: 3 numbers, must be 1, one for each joint");
+  EXPECT_EQ(refused([](ControlSettings& settings) { settings.friction_share = NAN; }),
+            "controller: friction_share nan, must be >= 0");
+  EXPECT_EQ(refused([](ControlSettings& settings) { settings.friction_velocity = 0.0; }),
+            "controller: friction_velocity 0, must be > 0");
+  EXPECT_EQ(refused([](ControlSettings& settings) { settings.observer = -1.0; }),
+            "controller: observer -1 rad/s, must be >= 0");
+  EXPECT_EQ(refused([](ControlSettings& settings) { settings.most_correction = INFINITY; }),
+            "controller: most_correction inf, must be >= 0");
 }
 
 }  // namespace

@@ -254,7 +254,7 @@ TEST(Controller, RefusesWhatItCannotPlay) {
   EXPECT_EQ(refused(Sequence()), "sequence: empty, must have at least one primitive");
   ControlSettings control;
   control.Kd = NAN;
-  EXPECT_EQ(refused(elbow_task(), control), "controller: gain nan, must be >= 0");
+  EXPECT_EQ(refused(elbow_task(), control), "controller: gain Kd: nan, must be >= 0");
 }
 
 TEST(Plugin, ServesSeveralArmsInOneWorld) {

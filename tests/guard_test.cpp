@@ -86,12 +86,29 @@ TEST(Guard, TellsWhichJointIsOffItsReference) {
   GuardSettings settings;
   settings.most_error = Eigen::VectorXd(Eigen::Vector3d(0.2, infinity, 0.01));
   const Guard guard(robot(), settings);
-  EXPECT_EQ(guard.deviation(Eigen::Vector3d(0.19, 1e6, -0.009), rest).cause, Cause::none);
-  const Incident off = guard.deviation(Eigen::Vector3d(0.1, 0.0, -0.03), rest);
+  EXPECT_EQ(guard.deviation(Eigen::Vector3d(0.19, 1e6, -0.009), rest, rest, false).cause,
+            Cause::none);
+  const Incident off = guard.deviation(Eigen::Vector3d(0.1, 0.0, -0.03), rest, rest, false);
   EXPECT_EQ(off.cause, Cause::deviation);
   EXPECT_EQ(off.joint, 2);
   EXPECT_EQ(off.value, 0.03);
   EXPECT_EQ(off.bound, 0.01);
+}
+
+// A wrist that friction holds back is asked for little; one that is lost for all there is.
+TEST(Guard, TakesAJointForLostWhereItsDriveIsAskedForMuch) {
+  RobotModel model = robot();
+  model.joints[0].effort = 17.0;
+  model.joints[1].effort = infinity;
+  const Guard guard(model, {});
+  const Eigen::Vector3d far(0.4, 0.0, 0.0), endless(0.0, 0.4, 0.0);
+  EXPECT_EQ(guard.deviation(far, rest, Eigen::Vector3d(8.4, 0.0, 0.0), false).cause, Cause::none);
+  EXPECT_EQ(guard.deviation(far, rest, Eigen::Vector3d(-8.5, 0.0, 0.0), false).joint, 0);
+  EXPECT_EQ(guard.deviation(far, rest, rest, true).joint, 0);
+  EXPECT_EQ(guard.deviation(endless, rest, rest, false).joint, 1);
+  GuardSettings error_alone;
+  error_alone.least_effort = 0.0;
+  EXPECT_EQ(Guard(model, error_alone).deviation(far, rest, rest, false).joint, 0);
 }
 
 TEST(Guard, AllowsAShareOfTheRangeBeyondALimit) {
@@ -131,7 +148,7 @@ TEST(Guard, WatchesNothingWithInfiniteBounds) {
   Guard guard(robot(), off);
   const Eigen::VectorXd far = Eigen::Vector3d::Constant(1e9);
   for (int k = 0; k < 10; ++k) EXPECT_TRUE(guard.trusts(dt, rest, rest, k * far));
-  EXPECT_EQ(guard.deviation(far, rest).cause, Cause::none);
+  EXPECT_EQ(guard.deviation(far, rest, rest, false).cause, Cause::none);
   EXPECT_EQ(guard.beyond_limits(far).cause, Cause::none);
   EXPECT_FALSE(guard.trusts(dt, Eigen::Vector3d::Constant(NAN), rest, rest));
   EXPECT_FALSE(guard.lost());
@@ -146,6 +163,9 @@ TEST(Guard, RefusesBoundsThatAreNone) {
   EXPECT_EQ(refused(settings), "guard: most_error: -0.100000, must be >= 0");
   settings.most_error = Eigen::VectorXd(Eigen::Vector2d::Ones());
   EXPECT_EQ(refused(settings), "guard: most_error: 2 numbers, must be 3, one for each joint");
+  settings = {};
+  settings.least_effort = -1.0;
+  EXPECT_EQ(refused(settings), "guard: least_effort: -1.000000, must be >= 0");
   settings = {};
   settings.longest_dropout = NAN;
   EXPECT_EQ(refused(settings), "guard: longest_dropout: nan, must be >= 0");
@@ -169,12 +189,12 @@ TEST(Guard, IncidentsAreToldInOneLine) {
 
 TEST(Guard, AllocatesNothingAsItWatches) {
   Guard guard(robot(), {});
-  Eigen::VectorXd q = rest, qd = rest, reference = rest;
+  Eigen::VectorXd q = rest, qd = rest, reference = rest, torque = rest;
   const AllocationGuard allocation;
   for (int k = 0; k < 100; ++k) {
     q(0) = k % 2 ? NAN : 0.01 * k;
     guard.trusts(dt, q, qd, reference);
-    guard.deviation(q, reference);
+    guard.deviation(q, reference, torque, false);
     guard.beyond_limits(q);
   }
   EXPECT_EQ(allocation.allocations(), 0);

@@ -10,9 +10,11 @@
 
 #include "plugin/examples/movement.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/world.hpp"
+#include "tests/drive_step.hpp"
 #include "tests/support.hpp"
 #include "tests/temp_folder.hpp"
-#include <seam/arm.hpp>
+#include <seam/bullet.hpp>
 #include <seam/seam.hpp>
 
 namespace seam::test {
@@ -34,6 +36,7 @@ class MujocoArm {
     if (!model_) throw Error(urdf, why);
     model_->opt.timestep = dt;
     model_->opt.integrator = mjINT_EULER;
+    model_->opt.disableflags |= mjDSBL_LIMIT;
     for (int i = 0; i < model_->nv; ++i) {
       model_->dof_damping[i] = model_->dof_frictionloss[i] = model_->dof_armature[i] = 0.0;
     }
@@ -46,6 +49,14 @@ class MujocoArm {
     }
   }
 
+  /// Rotors and viscous friction of the model, which MuJoCo has, too (and takes implicitly).
+  void add_drives(const RobotModel& model) {
+    for (std::size_t i = 0; i < velocity_.size(); ++i) {
+      model_->dof_armature[velocity_[i]] = model.joints[i].rotor_inertia;
+      model_->dof_damping[velocity_[i]] = model.joints[i].damping;
+    }
+    mj_setConst(model_.get(), data_.get());
+  }
   int dof() const { return model_->nv; }
   void reset(const Eigen::VectorXd& q) {
     for (std::size_t i = 0; i < position_.size(); ++i)
@@ -101,6 +112,43 @@ Played play(const RobotModel& model, const Sequence& sequence,
   EXPECT_EQ(controller.status(), ArmController::Status::following) << controller.what_happened();
   played.travel = most - least;
   return played;
+}
+
+// The same arm in both engines, with rotors and viscous friction, swings from where it is let go of.
+TEST(MujocoWithDrives, SwingsAsBulletDoesWithRotorsAndFriction) {
+  RobotModel model = RobotModel::read(pa10);
+  const double rotors[] = {0.75, 0.75, 0.2125, 0.2125, 0.00575, 0.00575, 0.00575};
+  const double viscous[] = {10, 10, 5, 5, 2, 2, 2};
+  for (std::size_t i = 0; i < 7; ++i) {
+    model.joints[i].rotor_inertia = rotors[i];
+    model.joints[i].damping = viscous[i];
+  }
+  constexpr double dt = 1e-3;
+  Eigen::VectorXd start(7);
+  start << 0.2, 0.5, -0.3, 0.8, 0.4, 0.6, -0.1;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(7);
+  Eigen::VectorXd push(7);
+  push << 40.0, 20.0, 10.0, 10.0, 3.0, 2.0, 2.0;
+  MujocoArm mujoco(model, dt);
+  mujoco.add_drives(model);
+  mujoco.reset(start);
+  World world;
+  RobotSettings without_shapes;
+  without_shapes.colliders = false;
+  Robot robot(model, *world, without_shapes);
+  robot.reset(start, zero);
+  Eigen::VectorXd q = start, qd = zero, their_q = start, their_qd = zero;
+  double farthest = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const Eigen::VectorXd torque = std::sin(0.01 * k) * push;
+    drive_step(world, robot, torque, dt);
+    mujoco.step(torque);
+    robot.state(q, qd);
+    mujoco.state(their_q, their_qd);
+    farthest = std::max(farthest, (q - their_q).cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT((q - start).cwiseAbs().minCoeff(), 0.05);
+  EXPECT_LT(farthest, 1e-9);
 }
 
 class Mujoco : public testing::TestWithParam<Join> {};

@@ -3,13 +3,9 @@
 #include <cmath>
 #include <cstring>
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <gmock/gmock.h>
 
-#include "scenes/friction.hpp"
 #include "scenes/play.hpp"
-#include "scenes/world.hpp"
 #include "tests/refusals.hpp"
 #include <seam/metrics.hpp>
 
@@ -17,90 +13,6 @@ namespace seam {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double inertia = 0.2;  // [kg m²]
-constexpr double dt = 1e-3;
-
-// A wheel that turns about a vertical axis.
-RobotModel wheel() {
-  RobotModel model;
-  model.name = "wheel";
-  model.joints.resize(1);
-  model.bodies.resize(1);
-  model.joints[0].name = "turn";
-  model.joints[0].type = Joint::Type::continuous;
-  model.joints[0].lower = -INFINITY;
-  model.joints[0].upper = INFINITY;
-  model.joints[0].speed = model.joints[0].effort = INFINITY;
-  model.bodies[0].link = "wheel";
-  model.bodies[0].inertial.mass = 1.0;
-  model.bodies[0].inertial.inertia = Eigen::Vector3d(0.15, 0.15, inertia).asDiagonal();
-  model.bodies[0].collisions.resize(1);
-  model.bodies[0].collisions[0].size.setConstant(0.1);
-  return model;
-}
-
-// A wheel with friction.
-struct Spun {
-  explicit Spun(const FrictionSettings& settings, double speed)
-      : robot(wheel(), *world), friction(robot, 1, settings) {
-    robot.reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, speed));
-  }
-  void step(double torque = 0.0) {
-    friction.pre_tick(dt);
-    robot.multibody().addJointTorque(0, torque);
-    world->stepSimulation(dt, 0);
-  }
-  double speed() const { return robot.multibody().getJointVel(0); }
-
-  World world;
-  Robot robot;
-  Friction friction;
-};
-
-// Against ω exp(−bt/I), of first order in the tick.
-TEST(Friction, ViscousSlowsAWheelExponentially) {
-  FrictionSettings settings;
-  settings.viscous = 0.6;
-  Spun wheel(settings, 5.0);
-  for (int k = 0; k < 500; ++k) wheel.step();
-  EXPECT_NEAR(wheel.speed(), 5.0 * std::exp(-0.6 * 0.5 / inertia), 5e-3);
-  EXPECT_NEAR(wheel.speed(), 5.0 * std::pow(1.0 - 0.6 * dt / inertia, 500), 1e-9);
-}
-
-// It falls by c/I a second, stands after ωI/c seconds, and then stands still.
-TEST(Friction, CoulombStopsAWheelAndHoldsIt) {
-  FrictionSettings settings;
-  settings.coulomb = 0.5;
-  Spun wheel(settings, 2.0);
-  for (int k = 1; k <= 700; ++k) {
-    wheel.step();
-    EXPECT_NEAR(wheel.speed(), 2.0 - 0.5 / inertia * k * dt, 1e-9);
-  }
-  for (int k = 0; k < 400; ++k) wheel.step();
-  for (int k = 0; k < 400; ++k) {
-    wheel.step(0.499);
-    EXPECT_NEAR(wheel.speed(), 0.0, 1e-9);
-  }
-  for (int k = 0; k < 100; ++k) wheel.step(0.7);
-  EXPECT_NEAR(wheel.speed(), 0.2 / inertia * 0.1, 1e-9);
-}
-
-TEST(Friction, RefusesWhatCannotBe) {
-  World world;
-  Robot robot(wheel(), *world);
-  FrictionSettings settings;
-  settings.coulomb = -1.0;
-  EXPECT_EQ(test::refusal([&] { Friction(robot, 1, settings); }),
-            "friction: coulomb: -1.000000, must be >= 0");
-  settings.coulomb = 1.0;
-  RobotModel bare = wheel();
-  bare.bodies[0].collisions.clear();
-  Robot shapeless(bare, *world);
-  EXPECT_THAT(test::refusal([&] { Friction(shapeless, 1, settings); }),
-              HasSubstr("joint \"turn\": its link has no collision shape"));
-  EXPECT_EQ(world->getNumMultiBodyConstraints(), 0);
-}
 
 Scene line(const std::vector<std::string>& overrides) {
   return Scene::read(std::string(SEAM_SCENES) + "/line.yaml", overrides);
@@ -205,9 +117,13 @@ TEST(Reality, ADropoutIsBridgedOrStopsTheArmAndIsTold) {
 }
 
 TEST(Reality, AGuardIsSetPerJoint) {
-  const Recording stopped = played({"guard.most_error={E1: 0.001}", "friction.viscous={E1: 20}"});
+  const Recording stopped =
+      played({"guard={most_error: {E1: 0.001}, least_effort: 0}", "friction.viscous={E1: 20}"});
   EXPECT_THAT(stopped.incident, HasSubstr("joint \"E1\" was off its reference by 0.001"));
-  EXPECT_EQ(played({"guard.most_error={S1: 0.001}", "friction.viscous={E1: 20}"}).incident, "");
+  EXPECT_EQ(
+      played({"guard={most_error: {S1: 0.001}, least_effort: 0}", "friction.viscous={E1: 20}"})
+          .incident,
+      "");
 }
 
 struct Bad {

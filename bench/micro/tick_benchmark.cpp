@@ -118,7 +118,7 @@ Work arm_controller(const Movement& movement) {
 
 Work law() {
   struct Law {
-    ComputedTorque law{InverseDynamics(pa10()), {}};
+    ComputedTorque law{pa10(), {}};
     Controller::Tick at;
     Eigen::VectorXd next, torque;
   };

@@ -151,7 +151,8 @@ void ArmController::watch(bool there) noexcept {
   if (!there) return bridge();
   if (blind_) regain();
   blind_ = false;
-  const Incident off = guard_.deviation(q(), tick_.reference.position, tick_.torque);
+  const Incident off =
+      guard_.deviation(q(), tick_.reference.position, tick_.torque, actuator_.limited());
   if (off.cause != Incident::Cause::none) stop_here(off);
 }
 

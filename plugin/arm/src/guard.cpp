@@ -120,10 +120,10 @@ Incident Guard::dropout() const noexcept {
 }
 
 Incident Guard::deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference,
-                          const Eigen::VectorXd& torque) const noexcept {
+                          const Eigen::VectorXd& torque, bool limited) const noexcept {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const double error = std::abs(q(i) - reference(i));
-    if (error > most_error_(i) && std::abs(torque(i)) >= least_torque_(i))
+    if (error > most_error_(i) && (limited || std::abs(torque(i)) >= least_torque_(i)))
       return {Incident::Cause::deviation, 0.0, static_cast<int>(i), error, most_error_(i)};
   }
   return {};

@@ -119,13 +119,16 @@ void DriveTrain::couple(double dt) noexcept {
     if (rigid) w_(i) = qd_(i);
   }
   t_ = kappa_.cwiseSqrt();
-  A_.noalias() = dt * (t_.asDiagonal() * W_ * t_.asDiagonal());
+  for (Eigen::Index i = 0; i < k_.size(); ++i) A_.col(i) = dt * t_(i) * W_.col(i).cwiseProduct(t_);
   for (Eigen::Index i = 0; i < k_.size(); ++i)
     if (!std::isinf(k_(i)) || A_(i, i) == 0.0) A_(i, i) += 1.0;
   factors_.compute(A_);
   P_.setIdentity();
-  factors_.solveInPlace(P_);
-  P_ = t_.asDiagonal() * P_ * t_.asDiagonal();
+  for (Eigen::Index i = 0; i < k_.size(); ++i) {  // of a whole matrix Eigen would allocate
+    auto column = P_.col(i);
+    factors_.solveInPlace(column);
+  }
+  for (Eigen::Index i = 0; i < k_.size(); ++i) P_.col(i) = t_(i) * P_.col(i).cwiseProduct(t_);
 }
 
 void DriveTrain::transmit(double dt, Eigen::VectorXd& torque) noexcept {

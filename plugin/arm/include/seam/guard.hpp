@@ -16,8 +16,9 @@ namespace SEAM_API seam {
 struct GuardSettings {
   PerJoint most_error =
       0.3;  // [rad or m] of a joint from its reference: a hit, or drives that are too weak
-  /// Share of a joint's effort limit that its drive must be asked for besides. A joint that has friction may be far behind, but
-  /// takes little torque to move; one that is lost takes all there is. Without an effort limit the error alone counts.
+  /// Share of a joint's effort limit that its drive must be asked for besides, unless some drive is at its limit. A joint with
+  /// friction may be far behind, but takes little torque to move; one that is lost takes all there is. 0, or a joint without an effort limit:
+  /// the error alone counts.
   double least_effort = 0.5;
   double longest_dropout =
       0.1;  // [s] without a state that are bridged by the torque of the reference alone
@@ -68,9 +69,10 @@ class Guard {
   void restart(const Eigen::VectorXd& q) noexcept;
 
   /// Which joint passes a bound, and with what; the cause is none where none does.
-  /// @param torque  n [N·m or N] that the drives were asked for
+  /// @param torque   n [N·m or N] that the drives were asked for
+  /// @param limited  a drive could not give that
   Incident deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference,
-                     const Eigen::VectorXd& torque) const noexcept;
+                     const Eigen::VectorXd& torque, bool limited) const noexcept;
   /// The same of a position that the joints should have.
   Incident beyond_limits(const Eigen::VectorXd& position) const noexcept;
   /// Moves the end of a motion back to a limit that it would pass; what is beyond one already may stay there.
