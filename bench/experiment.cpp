@@ -77,6 +77,17 @@ std::string short_form(double value) {
   return shown(value, std::abs(value) >= 1000.0 && std::abs(value) < 1e6 ? "{:.0f}" : "{:.3g}");
 }
 
+std::vector<Scene> variants_at(const Experiment& experiment, double value) {
+  std::vector<Scene> scenes;
+  for (const auto& [name, changes] : experiment.variants) {
+    std::vector<std::string> overrides = experiment.overrides;
+    overrides.insert(overrides.end(), changes.begin(), changes.end());
+    overrides.push_back(fmt::format("{}={}", experiment.vary, value));
+    scenes.push_back(Scene::read(experiment.scene, overrides, experiment.allowed));
+  }
+  return scenes;
+}
+
 void require_measured(const Experiment& experiment, const Measured& measured) {
   std::vector<std::string> metrics;
   for (const Experiment::Panel& panel : experiment.panels) metrics.push_back(panel.metric);
@@ -92,7 +103,8 @@ void require_measured(const Experiment& experiment, const Measured& measured) {
 Experiment Experiment::read(const std::string& path, const std::vector<std::string>& allowed) {
   const YamlEntry root = YamlEntry::read(path, {}, with_own_folders(allowed));
   root.require_format("seam-experiment", 1);
-  root.only({"format", "title", "scene", "set", "vary", "values", "axis", "panels", "text"});
+  root.only(
+      {"format", "title", "scene", "set", "variants", "vary", "values", "axis", "panels", "text"});
   Experiment experiment;
   experiment.allowed = allowed;
   experiment.name = std::filesystem::path(path).stem().string();
@@ -100,6 +112,10 @@ Experiment Experiment::read(const std::string& path, const std::vector<std::stri
   experiment.scene = root.at("scene").path();
   if (const auto set = root.find("set"))
     for (const YamlEntry& change : set->items()) experiment.overrides.push_back(change.text());
+  if (const auto variants = root.find("variants"))
+    for (const auto& [name, set] : variants->entries())
+      for (const YamlEntry& change : set.items())
+        experiment.variants[name].push_back(change.text());
   experiment.vary = root.at("vary").text();
   experiment.values = read_values(root.at("values"));
   const YamlEntry axis = root.at("axis");
@@ -122,14 +138,18 @@ std::vector<Measured> perform(const Experiment& experiment, int jobs,
   const auto quiet = [](int, int, const std::string&) {};
   std::vector<Measured> measured;
   for (const double value : experiment.values) {
-    std::vector<std::string> overrides = experiment.overrides;
-    overrides.push_back(fmt::format("{}={}", experiment.vary, value));
-    const Scene scene = Scene::read(experiment.scene, overrides, experiment.allowed);
     Measured& at = measured.emplace_back();
     at.value = value;
-    const std::vector<Comparison> compared = compare({scene}, methods, jobs, quiet);
-    for (const Run& run : compared.front().runs)
-      at.figures[std::string(to_string(run.method))] = figures_of(run);
+    const std::vector<Comparison> compared =
+        compare(variants_at(experiment, value), methods, jobs, quiet);
+    auto variant = experiment.variants.begin();
+    for (const Comparison& comparison : compared) {
+      const std::string prefix = variant->first.empty() ? "" : variant->first + ".";
+      for (const Run& run : comparison.runs)
+        for (const auto& [metric, figure] : figures_of(run))
+          at.figures[std::string(to_string(run.method))][prefix + metric] = figure;
+      ++variant;
+    }
     require_measured(experiment, at);
     progress(static_cast<int>(measured.size()), static_cast<int>(experiment.values.size()));
   }
@@ -137,7 +157,7 @@ std::vector<Measured> perform(const Experiment& experiment, int jobs,
 }
 
 std::string answer(const Experiment& experiment, const std::vector<Measured>& measured) {
-  static const std::regex brace(R"(\{(?:(\w+) (\w+)|x) (first|last|least|most)\})");
+  static const std::regex brace(R"(\{(?:(\w+) ([\w.]+)|x) (first|last|least|most)\})");
   std::string text = experiment.text;
   for (std::smatch match; std::regex_search(text, match, brace);) {
     std::vector<double> values;

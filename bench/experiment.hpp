@@ -13,8 +13,8 @@ namespace seam {
 struct Experiment {
   /// One metric of the answer: a part of the plot, and columns of the table.
   struct Panel {
-    std::string
-        metric;  // as in summary.json, or joint_speed_rad_s: of the reference, at the last join
+    /// As in summary.json, or joint_speed_rad_s: of the reference, at the last join; of a variant: VARIANT.METRIC.
+    std::string metric;
     std::string label;  // with the unit
     bool log = false;
   };
@@ -23,10 +23,12 @@ struct Experiment {
   std::string title;                            // one line
   std::string scene;                            // path of the scene file
   std::vector<std::string> overrides, allowed;  // see Scene::read
-  std::string vary;                             // the entry that is varied
-  std::vector<double> values;                   // increasing
-  std::string over;   // metric, of dmp2's run, over which all is drawn; empty: the value
-  std::string label;  // of that axis, with the unit
+  /// The scene with further overrides, by name; "" is the scene without.
+  std::map<std::string, std::vector<std::string>> variants{{"", {}}};
+  std::string vary;            // the entry that is varied
+  std::vector<double> values;  // increasing
+  std::string over;            // metric, of dmp2's run, over which all is drawn; empty: the value
+  std::string label;           // of that axis, with the unit
   bool log = false;
   std::vector<Panel> panels;
   std::string text;  // what it shows, with figures in braces: see `answer`

@@ -23,7 +23,7 @@ cp results/line/torque.png bench/pictures/line-torque.png
 cp results/carrying/wave_m.png bench/pictures/carrying-wave.png
 
 build/release/bench/seam experiment --out results/experiments
-for question in speed joining-velocity kernel-width goal-change lag tick spilling; do
+for question in speed joining-velocity kernel-width goal-change lag tick spilling what-rings rate-limit known-friction; do
   [ $question = speed ] || echo
   cat results/experiments/$question.md
   cp results/experiments/$question.png bench/experiments/

@@ -6,6 +6,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "scenes/film.hpp"
+#include "scenes/springs.hpp"
 #include "scenes/world.hpp"
 #include <seam/bullet.hpp>
 #include <seam/error.hpp>
@@ -34,25 +35,31 @@ Recording room_for(const Scene& scene, int ticks) {
 // The joints' state before a tick, and what is recorded of it.
 class Joints {
  public:
-  Joints(const Scene& scene, const Robot& robot)
+  Joints(const Scene& scene, const Robot& robot, int ticks)
       : robot_(robot), q_(Eigen::VectorXd::Zero(scene.robot.dof())), qd_(q_) {
-    if (scene.tool && scene.simulated.is_elastic())
-      space_.emplace(scene.robot, scene.sequence, *scene.tool, scene.start);
+    if (!scene.simulated.is_elastic()) return;
+    if (scene.tool) space_.emplace(scene.robot, scene.sequence, *scene.tool, scene.start);
+    springs_.emplace(robot, ticks);
   }
   void look() { robot_.state(q_, qd_); }
   void record(const Controller::Tick& tick, Eigen::Index row, Recording& recording) {
     recording.q.row(row) = q_;
     recording.qd.row(row) = qd_;
+    if (springs_) springs_->look(row, tick.reference);
     if (!recording.in_task_space()) return;
     const ToolError error = space_ ? space_->miss(tick.sequence, q_) : tick.tool_error;
     recording.tool_error_m(row) = error.distance;
     recording.tool_error_rad(row) = error.angle;
+  }
+  void finish(Recording& recording) const {
+    if (springs_) springs_->finish(recording);
   }
 
  private:
   const Robot& robot_;
   Eigen::VectorXd q_, qd_;
   std::optional<TaskSpace> space_;  // where the controller sees the motors, and not the tool
+  std::optional<Springs> springs_;
 };
 
 void record(const Controller::Tick& tick, double time, Eigen::Index row, Recording& recording) {
@@ -126,7 +133,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
   const auto objects = make_objects(scene, robot, ticks, place);
   std::optional<Film> film;
   if (replay) film.emplace(scene, method, robot, objects, dt, ticks, *replay);
-  Joints joints(scene, robot);
+  Joints joints(scene, robot, ticks);
   int limited = 0;
   auto event = scene.events.begin();
   for (int k = 0; k < ticks; ++k) {
@@ -147,6 +154,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
   if (controller.incident().cause != Incident::Cause::none)
     recording.incident = controller.what_happened();
   add_joins(scene, controller.sequencer(), recording.joins);
+  joints.finish(recording);
   if (film) film->finish(recording);
   return recording;
 }

@@ -223,10 +223,15 @@ void Robot::state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd)
   }
 }
 
+void Robot::motor_state(Eigen::Ref<Eigen::VectorXd> q,
+                        Eigen::Ref<Eigen::VectorXd> qd) const noexcept {
+  state(q, qd);
+  parts_->drives->state_of_drives(q, qd);
+}
+
 void Robot::measured_state(Eigen::Ref<Eigen::VectorXd> q,
                            Eigen::Ref<Eigen::VectorXd> qd) const noexcept {
-  state(q, qd);
-  if (parts_->sees_motors) parts_->drives->state_of_drives(q, qd);
+  parts_->sees_motors ? motor_state(q, qd) : state(q, qd);
 }
 
 // Bullet clears joint torques once per stepSimulation and not per substep. The base of a fixed-base

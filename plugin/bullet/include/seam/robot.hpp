@@ -83,8 +83,11 @@ class Robot {
 
   /// Positions [rad or m] and velocities [rad/s or m/s] of as many joints, from the first on, as there is room for.
   void state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
-  /// What the encoders see of as many joints, from the first on: the state, or that of the motors behind elastic joints (see
-  /// RobotSettings::encoders).
+  /// Of as many joints, from the first on: the state of the motors behind elastic joints, of the joints themselves where they are
+  /// rigid.
+  void motor_state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
+  /// What the encoders see of as many joints, from the first on: motor_state or state, see
+  /// RobotSettings::encoders.
   void measured_state(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
   /// The torque of the drives for the tick of dt that comes, and what their joints make of it (friction, rotors, springs). To be
   /// called in each of the world's pre-ticks, substeps included, after whatever else adds torques to this robot's joints: a
