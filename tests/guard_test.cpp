@@ -32,6 +32,7 @@ RobotModel robot() {
 }
 
 const Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+const Eigen::Vector3d moving(0.1, 0.0, 0.0);
 
 TEST(Guard, TrustsAStateThatStandsWhileTheReferenceStands) {
   Guard guard(robot(), {});
@@ -41,7 +42,7 @@ TEST(Guard, TrustsAStateThatStandsWhileTheReferenceStands) {
 TEST(Guard, TakesAStateThatStandsForNoneOnceTheReferenceHasMovedOn) {
   Guard guard(robot(), {});
   const auto trusts = [&](double q, double reference) {
-    return guard.trusts(dt, Eigen::Vector3d(q, 0.0, 0.0), rest,
+    return guard.trusts(dt, Eigen::Vector3d(q, 0.0, 0.0), moving,
                         Eigen::Vector3d(reference, 0.0, 0.0));
   };
   EXPECT_TRUE(trusts(0.5, 0.5));
@@ -53,13 +54,23 @@ TEST(Guard, TakesAStateThatStandsForNoneOnceTheReferenceHasMovedOn) {
   EXPECT_EQ(guard.dropout().value, 0.0);
 }
 
+TEST(Guard, LetsAnArmStandThatFrictionMayHold) {
+  Guard guard(robot(), {});
+  const auto trusts = [&](double reference) {
+    return guard.trusts(dt, rest, rest, Eigen::Vector3d(reference, 0.0, 0.0));
+  };
+  EXPECT_TRUE(trusts(0.0));
+  EXPECT_TRUE(trusts(0.29));
+  EXPECT_FALSE(trusts(0.31));
+}
+
 TEST(Guard, LetsAStateThatIsLateStandForItsDelay) {
   Guard guard(robot(), {}, 0.05);
   for (const bool again : {false, true}) {
     for (int k = 0; k <= 50; ++k)
-      EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.01 * k, 0.0, 0.0))) << k;
-    EXPECT_TRUE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.505, 0.0, 0.0)));
-    EXPECT_FALSE(guard.trusts(dt, rest, rest, Eigen::Vector3d(0.515, 0.0, 0.0))) << again;
+      EXPECT_TRUE(guard.trusts(dt, rest, moving, Eigen::Vector3d(0.01 * k, 0.0, 0.0))) << k;
+    EXPECT_TRUE(guard.trusts(dt, rest, moving, Eigen::Vector3d(0.505, 0.0, 0.0)));
+    EXPECT_FALSE(guard.trusts(dt, rest, moving, Eigen::Vector3d(0.515, 0.0, 0.0))) << again;
     guard.restart(rest);
   }
 }

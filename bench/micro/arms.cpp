@@ -7,6 +7,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "scenes/own_folders.hpp"
+#include "scenes/scene.hpp"
 
 namespace seam::micro {
 
@@ -41,6 +42,12 @@ Sequence there_and_back(const Primitive& there, const Primitive& back) {
 
 const RobotModel& pa10() {
   static const RobotModel model = RobotModel::read(own_folder() + "/assets/pa10/pa10.urdf");
+  return model;
+}
+
+const RobotModel& pa10_with_drives() {
+  static const RobotModel model =
+      Scene::read(own_folder() + "/scenes/line.yaml", {"arm=published"}).simulated;
   return model;
 }
 

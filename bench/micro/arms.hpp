@@ -12,6 +12,8 @@ namespace seam::micro {
 constexpr double dt = 1e-3;  // [s]
 
 const RobotModel& pa10();
+/// The same with the rotors and the friction that were published.
+const RobotModel& pa10_with_drives();
 
 /// A movement of the PA-10 and where it begins.
 struct Movement {

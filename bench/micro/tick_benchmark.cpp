@@ -95,17 +95,20 @@ Work controller(const Movement& movement, Join method) {
 
 // What a controller's tick consists of, from within.
 
-Work arm_controller(const Movement& movement) {
+Work arm_controller(const Movement& movement, const RobotModel& model = pa10(),
+                    const ControlSettings& law = {}) {
   struct Arm {
     std::unique_ptr<ArmController> controller;
     Eigen::VectorXd q, qd;
   };
   const auto arm = std::make_shared<Arm>();
+  ArmControllerSettings settings = settings_for(movement);
+  settings.law = law;
   const auto restart = [=] {
     arm->q = movement.start;
     arm->qd.setZero(arm->q.size());
-    arm->controller = std::make_unique<ArmController>(pa10(), movement.sequence, join,
-                                                      settings_for(movement), arm->q, arm->qd);
+    arm->controller =
+        std::make_unique<ArmController>(model, movement.sequence, join, settings, arm->q, arm->qd);
   };
   restart();
   return {restart,
@@ -169,6 +172,12 @@ void add_tick_benchmarks() {
       [=] { return arm_controller(joints); });
   add("of that, the control law", no_bar, pairs, joints, law);
   add("of that, the inverse dynamics by seam's class", no_bar, pairs, joints, dynamics);
+  ControlSettings observing;
+  observing.observer = 60.0;
+  add("control tick of an arm with rotors and friction, Bullet's multibody left out", no_bar, pairs,
+      joints, [=] { return arm_controller(joints, pa10_with_drives()); });
+  add("the same with the disturbance observer", 2.5, pairs, joints,
+      [=] { return arm_controller(joints, pa10_with_drives(), observing); });
   add("control tick in task space, dmp3", 5.0, 1000, tool, [=] { return controller(tool, join); });
 }
 

@@ -79,6 +79,9 @@ Pair many_and_one(Ticks kind, int count) {
 void add_world_benchmarks() {
   add_pair("world step with the plug-in / without, same torques", no_bar, 3000,
            [] { return side_by_side(pa10(), &Play::with_plugin, pa10(), &Play::without_plugin); });
+  add_pair("world step with rotors and friction / without", no_bar, 3000, [] {
+    return side_by_side(pa10_with_drives(), &Play::with_plugin, pa10(), &Play::with_plugin);
+  });
   add_pair("world step, meshes as colliders / boxes and cylinders", 1.33, 3000, [] {
     return side_by_side(mesh_arm(), &Play::without_plugin, pa10(), &Play::without_plugin);
   });

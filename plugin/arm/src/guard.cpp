@@ -12,6 +12,7 @@ namespace seam {
 
 namespace {
 
+constexpr double at_rest = 1e-9;  // [rad/s or m/s]
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void require_bound(const char* what, double value) {
@@ -101,11 +102,20 @@ bool Guard::trusts(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& q
     reference_ = reference;
     begun_ = true;
   }
-  frozen_ = stands && (frozen_ || (reference - reference_).lpNorm<Eigen::Infinity>() >
-                                      settings_.frozen_beyond);
+  frozen_ = stands && (frozen_ || moved_beyond(reference));
   const bool trusted = known && !frozen_;
   dropout_ = trusted ? 0.0 : dropout_ + dt;
   return trusted;
+}
+
+// Further than a state may stay the same.
+bool Guard::moved_beyond(const Eigen::VectorXd& reference) const noexcept {
+  const bool rests = seen_qd_.lpNorm<Eigen::Infinity>() < at_rest;
+  for (Eigen::Index i = 0; i < reference.size(); ++i)
+    if (std::abs(reference(i) - reference_(i)) >
+        std::max(settings_.frozen_beyond, rests ? most_error_(i) : 0.0))
+      return true;
+  return false;
 }
 
 void Guard::restart(const Eigen::VectorXd& q) noexcept {

@@ -22,8 +22,9 @@ struct GuardSettings {
   double least_effort = 0.5;
   double longest_dropout =
       0.1;  // [s] without a state that are bridged by the torque of the reference alone
-  double frozen_beyond =
-      0.01;  // [rad or m] of the reference while the state stays the same to the bit: then it is none
+  /// [rad or m] by which the reference moves while the state stays the same to the bit: then it is none. A state of rest (less than
+  /// 1e-9 rad/s or m/s) is one until the reference is most_error away: friction may hold the arm.
+  double frozen_beyond = 0.01;
   double beyond_limits =
       0.01;  // share of a joint's range by which the reference may pass its limits
 };
@@ -80,6 +81,8 @@ class Guard {
 
  private:
   GuardSettings settings_;
+  bool moved_beyond(const Eigen::VectorXd& reference) const noexcept;
+
   Eigen::VectorXd most_error_;        // n
   Eigen::VectorXd least_torque_;      // n, that a deviation needs
   Eigen::VectorXd least_, most_;      // n, what the reference may be
