@@ -191,8 +191,8 @@ TEST(Arm, WithASpringIsRecordedWhereTheLinkIs) {
     return std::pair(played.ref(last, 0) - played.q(last, 0), played.q(last, 0));
   };
   const auto [sag, q] = off("motor");
-  EXPECT_NEAR(sag, -9.81 * 1.0 * 0.2 * std::sin(q) / 500.0, 1e-4);
-  EXPECT_NEAR(off("link").first, 0.0, 1e-4);
+  EXPECT_NEAR(sag, -9.81 * 1.0 * 0.2 * std::sin(q) / 500.0, 5e-4);
+  EXPECT_NEAR(off("link").first, 0.0, 5e-4);
 }
 
 }  // namespace
