@@ -37,9 +37,9 @@ struct Played {
   double torque_jump = 0.0;
 };
 
-Played there_and_back(const std::string& urdf, seam::Join join, int substeps = 1) {
+Played there_and_back(const seam::RobotModel& model, seam::Join join, int substeps = 1) {
   World world;
-  seam::Robot arm = seam::Robot::load(urdf, world.bullet, tilted());
+  seam::Robot arm(model, world.bullet, tilted());
   std::vector<std::string> names;
   VectorXd from(arm.dof()), to(arm.dof());
   for (const seam::Joint& joint : arm.model().joints) {
@@ -75,6 +75,10 @@ Played there_and_back(const std::string& urdf, seam::Join join, int substeps = 1
   }
   if (substeps == 1) run.torque_jump = seam::jump(time, torque, 1.0).lpNorm<Eigen::Infinity>();
   return run;
+}
+
+Played there_and_back(const std::string& urdf, seam::Join join, int substeps = 1) {
+  return there_and_back(seam::RobotModel::read(urdf), join, substeps);
 }
 
 double worst_acceleration_error(const std::string& urdf, double range = 3.0) {
@@ -154,6 +158,18 @@ TEST_P(Float32, JoinsWithoutAStepInTorque) {
     std::cout << to_string(join) << ": " << run.torque_jump << " of " << step << " N·m\n";
     EXPECT_LE(run.torque_jump, joining_bar * step) << to_string(join);
   }
+}
+
+TEST_P(Float32, FollowsItsSequenceWithRotorsAndFriction) {
+  seam::RobotModel model = seam::RobotModel::read(GetParam());
+  for (seam::Joint& joint : model.joints) {
+    joint.rotor_inertia = 0.1;
+    joint.damping = 3.0;
+  }
+  for (const int substeps : {1, 4})
+    EXPECT_LE(there_and_back(model, seam::Join::dmp3, substeps).tracking, 10.0 * tracking_bar);
+  for (seam::Joint& joint : model.joints) joint.friction = 1.0;
+  EXPECT_LE(there_and_back(model, seam::Join::dmp3).tracking, 0.05);
 }
 
 TEST_P(Float32, NeitherAllocatesNorThrowsInATick) {

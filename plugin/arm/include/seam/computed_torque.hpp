@@ -27,9 +27,11 @@ struct ControlSettings {
   Reference reference = Reference::matched;  // of the acceleration
   double friction_share = 1.0;               // s, of the model's friction that is believed
   double friction_velocity = 0.02;  // [rad/s or m/s] v₀, below which Coulomb friction fades
-  /// [rad/s] ω of the disturbance observer, 0: none. Off unless asked for: what it observes on an ideal arm is rounding, but that would
-  /// be in every recording's last bits. With 60 a wrong mass or friction is made up for in 20 to 50 ms; more wants a sensor whose
-  /// velocity noise is small (see DisturbanceObserver) and drives whose lag is below 0.3/ω.
+  /// [rad/s] ω of the disturbance observer, 0: none. It is off unless you ask for it: on an ideal arm it observes rounding alone, but that would
+  /// change the last bits of every recording. With 60 the effect of a wrong mass or friction is gone after 20 to 50 ms. Noise of
+  /// standard deviation σ in the measured velocity becomes a noise of about (Kd + ω)σ in acceleration, so that an ω far above Kd
+  /// wants a good sensor. On the published PA-10 60 is right up to σ = 0.003 rad/s; at 0.01 rad/s the drives come to their rate limit, and 20
+  /// tracks better. Drives that lag want ω below 0.3 / lag.
   double observer = 0.0;
   /// Share of a joint's effort limit that the observer may use up, reckoned with the inertia that the joint moves in the neutral
   /// posture; in a joint without limit, of what Kp makes of 1 rad or m.
