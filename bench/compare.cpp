@@ -17,7 +17,7 @@ struct Play {
   const Scene* scene;
   Join method;
   double dt;
-  bool filmed;
+  bool whole;  // filmed, at all places; else the recording is all that is wanted
   Recording recording;
   Replay replay;
   double wall = 0.0;  // [s]
@@ -25,14 +25,14 @@ struct Play {
 
 void perform(Play& play) {
   const auto begin = std::chrono::steady_clock::now();
-  play.recording =
-      seam::play(*play.scene, play.method, play.dt, play.filmed ? &play.replay : nullptr);
+  play.recording = play.whole ? seam::play(*play.scene, play.method, play.dt, &play.replay)
+                              : play_at_first_place(*play.scene, play.method, play.dt);
   play.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::string description(const Play& play) {
-  return play.scene->name + " " + std::string(to_string(play.method)) + ", dt " +
-         std::to_string(play.dt * 1e3) + " ms";
+  return on_arm(play.scene->name, play.scene->arm) + " " + std::string(to_string(play.method)) +
+         ", dt " + std::to_string(play.dt * 1e3) + " ms";
 }
 
 void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
@@ -46,7 +46,6 @@ void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
   });
 }
 
-// A scene is played at each of its places.
 double simulated(const Play& play) {
   return play.dt * play.recording.ticks() * static_cast<double>(play.scene->places());
 }
@@ -68,6 +67,10 @@ std::vector<Join> with_dmp2(std::vector<Join> methods) {
 }
 
 }  // namespace
+
+std::string title_on_arm(const Scene& scene) {
+  return scene.arm == ideal_arm ? scene.title : scene.title + " (" + scene.arm + " arm)";
+}
 
 std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
                                 int jobs, const Progress& progress) {

@@ -27,6 +27,9 @@ struct Comparison {
   std::vector<Run> runs;
 };
 
+/// Its title, with the arm unless that is ideal.
+std::string title_on_arm(const Scene& scene);
+
 /// Called after each of the `total` plays has ended, from one thread at a time.
 using Progress = std::function<void(int done, int total, const std::string& what)>;
 
