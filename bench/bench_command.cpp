@@ -38,7 +38,7 @@ struct Options {
   std::vector<std::string> methods;
   std::optional<double> dt;  // [s]
   std::vector<double> speeds;
-  std::string arm;  // empty: the scene's
+  std::optional<std::string> arm;  // nothing: the scene's
   std::vector<std::string> overrides, allowed;
   bool list = false;
   int jobs = all_cores();
@@ -60,10 +60,10 @@ std::vector<std::vector<std::string>> overrides_of(const Options& options) {
 }
 
 // What a scene is on another arm; the arm is told by itself, and not among what was set anew.
-Scene read_on(const std::string& arm, const std::string& file,
+Scene read_on(const std::optional<std::string>& arm, const std::string& file,
               const std::vector<std::string>& overrides, const Options& options) {
   std::vector<std::string> all = overrides;
-  if (!arm.empty()) all.push_back("arm=" + arm);
+  if (arm) all.push_back("arm=" + *arm);
   Scene scene = Scene::read(file, all, options.allowed);
   scene.overrides = overrides;
   return scene;
@@ -72,7 +72,7 @@ Scene read_on(const std::string& arm, const std::string& file,
 // The ideal arm, and the one that the scene names or that is published of its robot.
 std::vector<Scene> read_on_both(const std::string& file, const std::vector<std::string>& overrides,
                                 const Options& options) {
-  const Scene own = read_on("", file, overrides, options);
+  const Scene own = read_on({}, file, overrides, options);
   if (own.arm != ideal_arm) return {read_on(ideal_arm, file, overrides, options), own};
   if (!std::filesystem::exists(named_arm(own.urdf, published))) return {own};
   return {own, read_on(published, file, overrides, options)};
@@ -95,7 +95,7 @@ std::vector<Scene> read_scenes(const Options& options) {
 }
 
 void list_scenes(Options options) {
-  options.arm.clear();
+  options.arm.reset();
   for (const Scene& scene : read_scenes(options))
     fmt::print("{:10}  {}\n", scene.name, scene.title);
 }
@@ -216,12 +216,9 @@ void add_bench_command(CLI::App& app) {
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
       ->allow_extra_args(false)
       ->delimiter(',');
-  command
-      .add_option(
-          "--arm", options->arm,
-          "arm: ideal, published or another NAME.yaml beside the robot's URDF; both: ideal, "
-          "and the scene's own or published")
-      ->capture_default_str();
+  command.add_option("--arm", options->arm,
+                     "arm: ideal, published, both (default: both; the second is the scene's own, "
+                     "if it names one), or NAME: NAME.yaml beside the robot's URDF");
   command.add_flag("--list", options->list, "name the scenes, a line each, and play none");
   command.add_option("--check", options->baselines,
                      "folder of baselines; figures that differ from them are named, exit code 1");
@@ -242,8 +239,8 @@ void add_run_command(CLI::App& app) {
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: the scene's)")
       ->expected(1);
   command.add_option("--arm", options->arm,
-                     "arm: ideal, published or another NAME.yaml beside the robot's URDF (default: "
-                     "the scene's, else ideal)");
+                     "arm: ideal, published (default: the scene's, else ideal), or NAME: NAME.yaml "
+                     "beside the robot's URDF");
   add_common(command, *options);
   command.callback([options] {
     options->alone = true;

@@ -102,7 +102,9 @@ function choose_arms(chosen) {
   if (scene.arms.length < 2) return;
   arms = chosen;
   pick_arms(scene);
+  const focused = by_id('arms').contains(document.activeElement);
   show_arms();
+  if (focused) by_id('arms').querySelector('[aria-pressed=true]').focus();
   show_runs();
   draw_plots();
   go(time);
@@ -114,10 +116,7 @@ function show_arms() {
   const button = (chosen, label, ...lines) =>
     make('button', {
       type: 'button', 'aria-pressed': String(arms === chosen), 'data-arms': String(chosen), title: 'Which arms are shown (A)',
-      onclick: () => {
-        choose_arms(chosen);
-        by_id('arms').querySelector('[aria-pressed=true]').focus();
-      },
+      onclick: () => choose_arms(chosen),
     }, ...lines, label);
   const lines = [line('opacity="0.35" stroke-width="5"'), line('stroke-width="1.75"')];
   fill(by_id('arms'), ...scene.arms.map((arm, i) => button(i, `${arm} arm`, several && arms === 'both' ? lines[i] : '')), button('both', 'both'));
