@@ -1,5 +1,6 @@
 #include "bench/bench_command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -22,17 +23,22 @@
 #include "bench/report.hpp"
 #include "bench/results_folder.hpp"
 #include "scenes/own_folders.hpp"
+#include "scenes/reality.hpp"
 #include <seam/error.hpp>
 
 namespace seam {
 
 namespace {
 
+constexpr const char* published = "published";
+constexpr const char* both = "both";
+
 struct Options {
   std::vector<std::string> scenes;
   std::vector<std::string> methods;
   std::optional<double> dt;  // [s]
   std::vector<double> speeds;
+  std::optional<std::string> arm;  // nothing: the scene's
   std::vector<std::string> overrides, allowed;
   bool list = false;
   int jobs = all_cores();
@@ -53,35 +59,69 @@ std::vector<std::vector<std::string>> overrides_of(const Options& options) {
   return each;
 }
 
+// What a scene is on another arm; the arm is told by itself, and not among what was set anew.
+Scene read_on(const std::optional<std::string>& arm, const std::string& file,
+              const std::vector<std::string>& overrides, const Options& options) {
+  std::vector<std::string> all = overrides;
+  if (arm) all.push_back("arm=" + *arm);
+  Scene scene = Scene::read(file, all, options.allowed);
+  scene.overrides = overrides;
+  return scene;
+}
+
+// The ideal arm, and the one that the scene names or that is published of its robot.
+std::vector<Scene> read_on_both(const std::string& file, const std::vector<std::string>& overrides,
+                                const Options& options) {
+  const Scene own = read_on({}, file, overrides, options);
+  if (own.arm != ideal_arm) return {read_on(ideal_arm, file, overrides, options), own};
+  if (!std::filesystem::exists(named_arm(own.urdf, published))) return {own};
+  return {own, read_on(published, file, overrides, options)};
+}
+
 std::vector<Scene> read_scenes(const Options& options) {
   std::vector<Scene> scenes;
   std::set<std::string> seen;
-  for (const std::string& name : scene_files(options.scenes))
-    for (const auto& overrides : overrides_of(options)) {
-      Scene& scene = scenes.emplace_back(Scene::read(name, overrides, options.allowed));
-      if (scene.speed != 1.0) scene.name += fmt::format("-{:g}x", scene.speed);
-      if (!seen.insert(scene.name).second)
-        throw Error("scene \"" + scene.name + "\"", "given twice");
-    }
+  for (const std::string& file : scene_files(options.scenes))
+    for (const auto& overrides : overrides_of(options))
+      for (Scene& scene : options.arm == both
+                              ? read_on_both(file, overrides, options)
+                              : std::vector{read_on(options.arm, file, overrides, options)}) {
+        if (scene.speed != 1.0) scene.name += fmt::format("-{:g}x", scene.speed);
+        const std::string name = on_arm(scene.name, scene.arm);
+        if (!seen.insert(name).second) throw Error("scene \"" + name + "\"", "given twice");
+        scenes.push_back(std::move(scene));
+      }
   return scenes;
 }
 
-void list_scenes(const Options& options) {
+void list_scenes(Options options) {
+  options.arm.reset();
   for (const Scene& scene : read_scenes(options))
     fmt::print("{:10}  {}\n", scene.name, scene.title);
 }
 
+// Which were to be played on two arms, and have but one.
+void print_lonely(const std::vector<Scene>& scenes) {
+  for (const Scene& scene : scenes) {
+    const auto same = [&](const Scene& other) { return other.name == scene.name; };
+    if (std::count_if(scenes.begin(), scenes.end(), same) == 1)
+      fmt::print("{}: on the ideal arm only, there is no {}\n", scene.name,
+                 named_arm(scene.urdf, published));
+  }
+}
+
 std::string own_method(const Options& options) {
   const std::string& scene = options.scenes[0];
-  const auto method = Scene::read(scene_file(scene), options.overrides, options.allowed).method;
+  const auto method = read_on(options.arm, scene_file(scene), options.overrides, options).method;
   if (!method)
     throw Error(scene, "has no key \"method\", needs --method dmp2, dmp2a, dmp3 or dmp2j");
   return std::string(to_string(*method));
 }
 
 void print(const Comparison& comparison) {
-  fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", comparison.scene.name, comparison.scene.title,
-             comparison.scene.dt * 1e3, table(comparison));
+  const Scene& scene = comparison.scene;
+  fmt::print("{}: {} (dt {:g} ms)\n\n{}\n", on_arm(scene.name, scene.arm), title_on_arm(scene),
+             scene.dt * 1e3, table(comparison));
   for (const Run& run : comparison.runs)
     if (!run.recording.incident.empty())
       fmt::print("{}: {}\n", to_string(run.method), run.recording.incident);
@@ -132,9 +172,10 @@ bool bench(const Options& options) {
       compare(scenes, methods, options.jobs,
               [&](int done, int total, const std::string& what) { line.show(done, total, what); });
   folder.make();
-  write_results(comparisons, SEAM_VERSION, options.out);
+  write_results(comparisons, SEAM_VERSION, options.out, options.jobs);
   for (const Comparison& comparison : comparisons) print(comparison);
   if (comparisons.size() > 1) fmt::print("{}\n", overview(comparisons));
+  if (options.arm == both) print_lonely(scenes);
   fmt::print("{}/: summary.json; per scene a recording of each method (CSV) and pictures (PNG)\n",
              options.out);
   const std::string page = (std::filesystem::path(options.out) / "report.html").string();
@@ -166,6 +207,7 @@ void bench_and_exit(const Options& options) {
 
 void add_bench_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
+  options->arm = both;
   CLI::App& command = *app.add_subcommand("bench", "play scenes with every method and compare");
   command.add_option("scenes", options->scenes,
                      "scene files, or names of seam's own (default: all of those)");
@@ -174,6 +216,9 @@ void add_bench_command(CLI::App& app) {
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: all)")
       ->allow_extra_args(false)
       ->delimiter(',');
+  command.add_option("--arm", options->arm,
+                     "arm: ideal, published, both (default: both; the second is the scene's own, "
+                     "if it names one), or NAME: NAME.yaml beside the robot's URDF");
   command.add_flag("--list", options->list, "name the scenes, a line each, and play none");
   command.add_option("--check", options->baselines,
                      "folder of baselines; figures that differ from them are named, exit code 1");
@@ -193,9 +238,13 @@ void add_run_command(CLI::App& app) {
       .add_option("--method", options->methods,
                   "joining method: dmp2, dmp2a, dmp3, dmp2j (default: the scene's)")
       ->expected(1);
+  command.add_option("--arm", options->arm,
+                     "arm: ideal, published (default: the scene's, else ideal), or NAME: NAME.yaml "
+                     "beside the robot's URDF");
   add_common(command, *options);
   command.callback([options] {
     options->alone = true;
+    if (options->arm == both) throw Error("--arm", "\"both\", seam run plays on one");
     if (options->methods.empty()) options->methods = {own_method(*options)};
     bench_and_exit(*options);
   });

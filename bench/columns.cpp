@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +15,10 @@ namespace seam {
 namespace {
 
 using Metric = double RunMetrics::*;
+
+// Outcomes that have a column of their own in the overview, or are told only where they are not 0.
+constexpr const char* limited = "limited_share";
+constexpr const char* stopped = "stopped_share";
 
 Column metric(const char* name, const char* heading, const char* format, Metric of) {
   return {name, heading, format, [of](const Run& run) { return run.metrics.*of; }};
@@ -27,6 +32,7 @@ double outcome(const Run& run, const std::string& name) {
 
 // "spilled_share" as "spilled", "wave_peak_m" as "wave peak [m]".
 std::string heading_of(std::string name) {
+  if (name == limited) return "share of time at a limit of the drives";
   std::string unit;
   for (const char* ending : {"_share", "_m"}) {
     const std::size_t length = std::string(ending).size();
@@ -199,26 +205,98 @@ Rows cells(const Comparison& comparison) {
   return rows;
 }
 
-// What a scene adds, in words.
-std::string came_of(const Run& run) {
+bool is_share(const Outcome& outcome) {
+  return outcome.name.find("_share") != std::string::npos;
+}
+
+ShownOutcome shown_outcome(const Outcome& outcome) {
+  std::string name = outcome.name.substr(0, outcome.name.rfind('_'));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, is_share(outcome) ? fmt::format("{:.3g} %", 100.0 * outcome.value)
+                                  : fmt::format("{:.1f} mm", 1e3 * outcome.value)};
+}
+
+// The same scene and method on each arm, the ideal one first.
+using OnArms = std::vector<const Run*>;
+
+// `a / b`, or one of them if they are alike.
+std::string of_both(const std::vector<std::string>& values) {
+  return values.front() == values.back() ? values.front() : values.front() + " / " + values.back();
+}
+
+std::string of_both(const OnArms& runs, Metric of, const char* format) {
+  std::vector<std::string> values;
+  for (const Run* run : runs) values.push_back(shown(run->metrics.*of, format));
+  return of_both(values);
+}
+
+// The shares that a scene adds, in words; lengths are in its own table.
+std::string came_of(const OnArms& runs) {
   std::string text;
-  for (const auto& [name, value] : shown_outcomes(run.recording))
-    text += (text.empty() ? "" : ", ") + name + " " + value;
+  for (const Outcome& of_first : runs.front()->recording.outcomes) {
+    if (!is_share(of_first) || of_first.name == limited) continue;
+    double most = 0.0;
+    std::vector<std::string> values;
+    for (const Run* run : runs) {
+      const Outcome of_run{of_first.name, outcome(*run, of_first.name)};
+      most = std::max(most, of_run.value);
+      values.push_back(shown_outcome(of_run).value);
+    }
+    if (of_first.name == stopped && most == 0.0) continue;
+    text += (text.empty() ? "" : ", ") + shown_outcome(of_first).name + " " + of_both(values);
+  }
   return text;
+}
+
+// In thousandths, with two digits or as a whole number.
+std::string thousandths(double value, const std::string& unit) {
+  return shown(1e3 * value, value < 0.00995 ? "{:#.2g}" : "{:.0f}") + " m" + unit;
+}
+
+// By how much a tool or, where there is none, a joint is missed.
+std::string missed(const Recording& recording, double joints, double tool_m, double tool_rad) {
+  if (recording.in_task_space())
+    return thousandths(tool_m, "m") +
+           (std::isnan(tool_rad) ? "" : ", " + thousandths(tool_rad, "rad"));
+  const std::string unit = of_joints(recording, "[rad]");
+  return thousandths(joints, replaced(unit.substr(1, unit.size() - 2), "or m", "or mm"));
+}
+
+std::vector<std::string> overview_row(const Scene& scene, const OnArms& runs) {
+  using M = RunMetrics;
+  const Run& last = *runs.back();
+  const RunMetrics& metrics = last.metrics;
+  return {scene.name,
+          std::string(to_string(last.method)),
+          came_of(runs),
+          of_both(runs, &M::torque_jump_nm, "{:.3g}"),
+          shown(runs.front()->metrics.torque_jump_order, "{:.1f}"),
+          of_both(runs, &M::torque_rate_peak_nm_s, "{:.0f}"),
+          missed(last.recording, metrics.tracking_after_join_max_rad,
+                 metrics.tool_tracking_after_join_max_m, metrics.tool_tracking_after_join_max_rad),
+          missed(last.recording, metrics.tracking_max_rad, metrics.tool_tracking_max_m,
+                 metrics.tool_tracking_max_rad),
+          shown(100.0 * outcome(last, limited), "{:.2g}")};
+}
+
+// What the overview's columns are of, where there are two arms.
+std::string legend(const std::set<std::string>& others) {
+  std::string arm;
+  for (const std::string& other : others) arm += (arm.empty() ? "" : " or ") + other;
+  return fmt::format(
+      "\n`a / b`: on the ideal arm / on the {0} arm; one figure where both agree. Order: on the "
+      "ideal arm. Tracking errors, in the 0.2 s after a join and over all, and the time at a limit "
+      "of the drives: on the {0} arm.\n",
+      arm);
 }
 
 }  // namespace
 
 std::vector<ShownOutcome> shown_outcomes(const Recording& recording) {
   std::vector<ShownOutcome> all;
-  for (const Outcome& outcome : recording.outcomes) {
-    if (outcome.name == "stopped_share" && outcome.value == 0.0) continue;
-    const bool share = outcome.name.find("_share") != std::string::npos;
-    std::string name = outcome.name.substr(0, outcome.name.rfind('_'));
-    std::replace(name.begin(), name.end(), '_', ' ');
-    all.push_back({name, share ? fmt::format("{:.3g} %", 100.0 * outcome.value)
-                               : fmt::format("{:.1f} mm", 1e3 * outcome.value)});
-  }
+  for (const Outcome& outcome : recording.outcomes)
+    if (outcome.name != limited && !(outcome.name == stopped && outcome.value == 0.0))
+      all.push_back(shown_outcome(outcome));
   return all;
 }
 
@@ -227,25 +305,22 @@ std::string table(const Comparison& comparison) {
 }
 
 std::string overview(const std::vector<Comparison>& comparisons) {
-  Rows rows{{"scene", "method", "what came of it", "torque jump [N·m]", "of dmp2's [%]", "order",
-             "peak torque rate [N·m/s]", "peak jerk [rad/s³]", "deviation [rad]"}};
-  for (const Comparison& comparison : comparisons) {
-    const auto dmp2 = std::find_if(comparison.runs.begin(), comparison.runs.end(),
-                                   [](const Run& run) { return run.method == Join::dmp2; });
-    for (const Run& run : comparison.runs) {
-      const double share = dmp2 == comparison.runs.end()
-                               ? std::numeric_limits<double>::quiet_NaN()
-                               : 100.0 * run.metrics.torque_jump_nm / dmp2->metrics.torque_jump_nm;
-      rows.push_back({comparison.scene.name, std::string(to_string(run.method)), came_of(run),
-                      shown(run.metrics.torque_jump_nm, "{:.3g}"),
-                      shown(share, share < 10.0 ? "{:.2g}" : "{:.0f}"),
-                      shown(run.metrics.torque_jump_order, "{:.1f}"),
-                      shown(run.metrics.torque_rate_peak_nm_s, "{:.0f}"),
-                      shown(run.metrics.jerk_peak_rad_s3, "{:.0f}"),
-                      shown(run.metrics.deviation_peak_rad, "{:.3f}")});
+  Rows rows{{"scene", "method", "what came of it", "torque jump [N·m]", "order",
+             "peak torque rate [N·m/s]", "error after a join", "largest error", "at a limit [%]"}};
+  std::set<std::string> others;
+  for (auto on_one = comparisons.begin(); on_one != comparisons.end();) {
+    const auto end = std::find_if(on_one, comparisons.end(), [&](const Comparison& other) {
+      return other.scene.name != on_one->scene.name;
+    });
+    for (std::size_t i = 0; i < on_one->runs.size(); ++i) {
+      OnArms runs;
+      for (auto on_arm = on_one; on_arm != end; ++on_arm) runs.push_back(&on_arm->runs[i]);
+      rows.push_back(overview_row(on_one->scene, runs));
     }
+    if (end - on_one > 1) others.insert((end - 1)->scene.arm);
+    on_one = end;
   }
-  return markdown(rows, 3);
+  return markdown(rows, 3) + (others.empty() ? "" : legend(others));
 }
 
 }  // namespace seam

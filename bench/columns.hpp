@@ -43,7 +43,8 @@ std::vector<ShownOutcome> shown_outcomes(const Recording& recording);
 
 /// The comparison as a Markdown table, a method a column, that is aligned for reading on a terminal.
 std::string table(const Comparison& comparison);
-/// All scenes and methods in one table: what came of each, and what it cost.
+/// All scenes and methods in one table: what came of each, and what it cost; a scene's arms stand in one row.
+/// @param comparisons  those of a scene side by side, the ideal arm first
 std::string overview(const std::vector<Comparison>& comparisons);
 
 }  // namespace seam

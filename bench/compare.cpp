@@ -17,7 +17,7 @@ struct Play {
   const Scene* scene;
   Join method;
   double dt;
-  bool filmed;
+  bool whole;  // filmed, at all places; else the recording is all that is wanted
   Recording recording;
   Replay replay;
   double wall = 0.0;  // [s]
@@ -25,14 +25,14 @@ struct Play {
 
 void perform(Play& play) {
   const auto begin = std::chrono::steady_clock::now();
-  play.recording =
-      seam::play(*play.scene, play.method, play.dt, play.filmed ? &play.replay : nullptr);
+  play.recording = play.whole ? seam::play(*play.scene, play.method, play.dt, &play.replay)
+                              : play_at_first_place(*play.scene, play.method, play.dt);
   play.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::string description(const Play& play) {
-  return play.scene->name + " " + std::string(to_string(play.method)) + ", dt " +
-         std::to_string(play.dt * 1e3) + " ms";
+  return on_arm(play.scene->name, play.scene->arm) + " " + std::string(to_string(play.method)) +
+         ", dt " + std::to_string(play.dt * 1e3) + " ms";
 }
 
 void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
@@ -46,18 +46,22 @@ void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
   });
 }
 
-// A scene is played at each of its places.
 double simulated(const Play& play) {
   return play.dt * play.recording.ticks() * static_cast<double>(play.scene->places());
 }
 
 // But for the recording and the replay, which others may be measured by.
-Run measured(const Play& full, const Play& half, const Play& dmp2) {
+Run measured(const Play& full, const Recording* half, const Play& dmp2) {
   Run run;
   run.method = full.method;
-  run.metrics = measure(full.recording, {&half.recording, &dmp2.recording});
+  run.metrics = measure(full.recording, {half, &dmp2.recording});
   run.real_time_factor = simulated(full) / full.wall;
   return run;
+}
+
+// What drives with a lag, and torques in steps, make of a jump does not follow the tick.
+bool has_order(const Scene& scene) {
+  return scene.arm == ideal_arm;
 }
 
 // dmp2 is always played: it is what the others deviate from.
@@ -69,14 +73,19 @@ std::vector<Join> with_dmp2(std::vector<Join> methods) {
 
 }  // namespace
 
+std::string title_on_arm(const Scene& scene) {
+  return scene.arm == ideal_arm ? scene.title : scene.title + " (" + scene.arm + " arm)";
+}
+
 std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
                                 int jobs, const Progress& progress) {
   const std::vector<Join> played = with_dmp2(methods);
   std::vector<Play> plays;
   for (const Scene& scene : scenes)
-    for (const Join method : played)
-      for (const double share : {1.0, 0.5})
-        plays.push_back({&scene, method, share * scene.dt, share == 1.0, {}, {}, 0.0});
+    for (const Join method : played) {
+      plays.push_back({&scene, method, scene.dt, true, {}, {}, 0.0});
+      if (has_order(scene)) plays.push_back({&scene, method, 0.5 * scene.dt, false, {}, {}, 0.0});
+    }
   perform_all(plays, jobs, progress);
 
   const auto play_of = [&](const Scene& scene, Join method) {
@@ -90,7 +99,8 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
     Comparison comparison{scene, {}};
     for (const Join method : methods) {
       const auto full = play_of(scene, method);
-      comparison.runs.push_back(measured(*full, *(full + 1), *dmp2));
+      const Recording* half = has_order(scene) ? &(full + 1)->recording : nullptr;
+      comparison.runs.push_back(measured(*full, half, *dmp2));
     }
     for (Run& run : comparison.runs) {
       const auto full = play_of(scene, run.method);

@@ -1,4 +1,4 @@
-# bash's completion of seam. The program is asked for its commands, options, methods, scenes and experiments: it knows them.
+# bash's completion of seam. The program is asked for its commands, options, methods, arms, scenes and experiments: it knows them.
 _seam() {
   local program=${COMP_WORDS[0]} command=${COMP_WORDS[1]-} word=$2 previous=$3 help words=
   if ((COMP_CWORD == 1)); then
@@ -11,6 +11,9 @@ _seam() {
     words=$(sed -nE 's/^  (-[a-zA-Z],)?(--[a-z-]+).*/\2/p' <<<"$help")
   elif [[ $previous == --method || $previous == --compare ]]; then
     words=$(sed -nE 's/^.*joining method: ([a-z0-9, ]+).*/\1/p' <<<"$("$program" run --help)")
+    words=${words//,/ }
+  elif [[ $previous == --arm ]]; then
+    words=$(sed -nE 's/^.* arm: ([a-z, ]+)[,(].*/\1/p' <<<"$help")
     words=${words//,/ }
   elif [[ $previous != -* ]]; then
     case $command in

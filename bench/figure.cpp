@@ -89,7 +89,8 @@ std::string sequencing_script(const Comparison& comparison) {
   const int every = std::max(1, recording.ticks() / curve_points);
   std::string text = with_joins(comparison, 1200, 1440);
   text += fmt::format("set xrange [0:{}]\n", recording.time(recording.ticks() - 1));
-  text += "set multiplot layout 4,1 title " + quoted(scene.title + ", " + scene.figure) + "\n";
+  text +=
+      "set multiplot layout 4,1 title " + quoted(title_on_arm(scene) + ", " + scene.figure) + "\n";
   const std::string u = unit(scene);
   text += "set ylabel 'each alone [" + u + "]'\nplot ";
   for (std::size_t i = 0; i < scene.primitive_names.size(); ++i)
@@ -159,9 +160,10 @@ std::size_t most_disturbed_joint(const Eigen::VectorXd& time, const Eigen::Matri
 }
 
 void draw_figures(const Comparison& comparison, const std::string& dir) {
-  const std::string folder = (std::filesystem::path(dir) / comparison.scene.name).string();
+  const std::string name = on_arm(comparison.scene.name, comparison.scene.arm);
+  const std::string folder = (std::filesystem::path(dir) / name).string();
   write_primitives(comparison, folder);
-  draw(folder, comparison.scene.name, sequencing_script(comparison));
+  draw(folder, name, sequencing_script(comparison));
   draw(folder, "torque", torque_script(comparison));
   for (const Signal& signal : comparison.runs.front().recording.signals)
     draw(folder, signal.name, signal_script(comparison, signal));

@@ -61,7 +61,8 @@ Figures figures(const std::vector<Comparison>& comparisons) {
   Figures figures;
   for (const Comparison& comparison : comparisons)
     for (const Run& run : comparison.runs)
-      figures[comparison.scene.name][std::string(to_string(run.method))] = seam::figures(run);
+      figures[on_arm(comparison.scene.name, comparison.scene.arm)]
+             [std::string(to_string(run.method))] = seam::figures(run);
   return figures;
 }
 
@@ -83,7 +84,7 @@ Baselines::Baselines(const std::string& dir) : dir_(dir) {
   const std::filesystem::path folder = dir;
   const YamlEntry root = YamlEntry::read((folder / "tolerances.yaml").string());
   root.require_format("seam-tolerances", format);
-  root.only({"format", "metrics", "scenes"});
+  root.only({"format", "metrics", "arms", "scenes"});
   const auto read = [](const YamlEntry& metrics, Tolerances& tolerances) {
     for (const auto& [metric, entry] : metrics.entries()) {
       entry.only({"relative", "absolute", "better"});
@@ -97,6 +98,8 @@ Baselines::Baselines(const std::string& dir) : dir_(dir) {
     }
   };
   read(root.at("metrics"), tolerances_[""]);
+  if (const auto arms = root.find("arms"))
+    for (const auto& [arm, metrics] : arms->entries()) read(metrics, tolerances_[on_arm("", arm)]);
   if (const auto scenes = root.find("scenes"))
     for (const auto& [scene, metrics] : scenes->entries()) read(metrics, tolerances_[scene]);
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -106,7 +109,8 @@ Baselines::Baselines(const std::string& dir) : dir_(dir) {
 
 Baselines::Tolerance Baselines::tolerance(const std::string& scene,
                                           const std::string& metric) const {
-  for (const std::string& of : {scene, std::string()})
+  const std::size_t arm = std::min(scene.rfind('-'), scene.size());
+  for (const std::string& of : {scene, scene.substr(0, arm), scene.substr(arm), std::string()})
     if (const auto tolerances = tolerances_.find(of); tolerances != tolerances_.end())
       if (const auto found = tolerances->second.find(metric); found != tolerances->second.end())
         return found->second;

@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// What was measured: scene → method → metric, named as in summary.json. NaN: could not be measured.
+/// What was measured: scene (see on_arm) → method → metric, named as in summary.json. NaN: could not be measured.
 using Figures = std::map<std::string, std::map<std::string, std::map<std::string, double>>>;
 
 Figures figures(const std::vector<Comparison>& comparisons);
@@ -35,7 +35,8 @@ struct Difference {
 /// One line, e.g. `carrying dmp3: torque_jump_nm 0.0189 -> 15.4, worse by 81381 % (allowed: 1 %)`.
 std::string to_string(const Difference& difference);
 
-/// Figures as they should be: a folder with `tolerances.yaml` and a file SCENE.json for each scene.
+/// Figures as they should be: a folder with `tolerances.yaml` and a file SCENE.json for each scene. A tolerance is that of the
+/// scene on this arm, else of the scene, else of the arm, else of all.
 class Baselines {
  public:
   /// @throws Error  no such folder, a file that cannot be read or is not of the format (names file and place)
@@ -64,7 +65,7 @@ class Baselines {
   std::string dir_;
   Figures was_;
   std::map<std::string, Tolerances>
-      tolerances_;  // of a scene; "" for all that have none of their own
+      tolerances_;  // of a scene, of an arm (`-published`), and "" for all that have none of their own
 };
 
 }  // namespace seam

@@ -15,6 +15,7 @@
 #include "bench/pack.hpp"
 #include "bench/page_replay.hpp"
 #include "bench/page_template.hpp"
+#include "scenes/scene.hpp"
 #include <seam/error.hpp>
 #include <seam/recording.hpp>
 #include <seam/whole_file.hpp>
@@ -89,11 +90,13 @@ Json cells(const Json& columns, const Json& metrics) {
   return cells;
 }
 
-// One scene of the page, put together from its runs.
+// One scene of the page, put together from its runs on all arms.
 class ScenePage {
  public:
-  ScenePage(const Json& scene, std::string folder, PageMeshes& meshes)
-      : scene_(scene), folder_(std::move(folder)), meshes_(meshes) {}
+  ScenePage(const Json& scene, const std::string& results, PageMeshes& meshes)
+      : scene_(scene), results_(results), meshes_(meshes) {}
+
+  void add_arm(const Json& arm) { arms_.push_back(arm); }
 
   void add(const Json& run) {
     runs_.push_back(&run);
@@ -106,6 +109,7 @@ class ScenePage {
                  {"figure", scene_.at("figure")},
                  {"file", scene_.at("file")},
                  {"overrides", scene_.at("overrides")},
+                 {"arms", arms_},
                  {"rim", scene_.at("rim")},
                  {"columns", scene_.at("columns")},
                  {"join_columns", scene_.at("join_columns")},
@@ -123,14 +127,16 @@ class ScenePage {
 
  private:
   Json run_page(const Json& run) {
-    const std::string method = run.at("method");
-    const std::string path = folder_ + "/" + method + ".csv";
+    const std::string name = on_arm(scene_.at("scene"), run.at("arm"));
+    const std::string beside = results_ + "/" + name + "/" + run.at("method").get<std::string>();
+    const std::string path = beside + ".csv";
     const Recording recording = read_recording(path);
     const Curves curves = curves_of(recording);
     if (names_.empty()) begin(recording, curves);
     if (curves.names != names_ || recording.ticks() != ticks_)
       throw Error(path, "has other columns or times than the scene's other recordings");
-    Json page = {{"method", method},
+    Json page = {{"method", run.at("method")},
+                 {"arm", run.at("arm")},
                  {"dt", run.at("dt")},
                  {"seed", run.at("seed")},
                  {"outcomes", run.at("outcomes")},
@@ -138,7 +144,7 @@ class ScenePage {
                  {"cells", cells(scene_.at("columns"), run.at("metrics"))},
                  {"joins", joins(run)},
                  {"values", pack_.add(decimated(curves.values, kept_))}};
-    page["motion"] = motion(folder_ + "/" + method + ".replay.json");
+    page["motion"] = motion(beside + ".replay.json");
     return page;
   }
 
@@ -191,8 +197,9 @@ class ScenePage {
   }
 
   const Json& scene_;
-  std::string folder_;
+  std::string results_;
   PageMeshes& meshes_;
+  Json arms_ = Json::array();
   std::vector<const Json*> runs_;
   std::vector<double> joins_;  // [s] of all runs
   std::vector<std::string> names_;
@@ -215,15 +222,18 @@ Json method_styles() {
 }
 
 Json page_data(const Json& summary, const std::string& results) {
-  Json scenes = Json::array();
   PageMeshes meshes;
+  std::vector<ScenePage> pages;
+  std::string last;
   for (const Json& scene : summary.at("scenes")) {
-    const std::string name = scene.at("scene");
-    ScenePage page(scene, results + "/" + name, meshes);
+    if (pages.empty() || scene.at("scene") != last) pages.emplace_back(scene, results, meshes);
+    pages.back().add_arm(scene.at("arm"));
+    last = scene.at("scene");
     for (const Json& run : summary.at("runs"))
-      if (run.at("scene") == name) page.add(run);
-    scenes.push_back(page.page());
+      if (run.at("scene") == last && run.at("arm") == scene.at("arm")) pages.back().add(run);
   }
+  Json scenes = Json::array();
+  for (ScenePage& page : pages) scenes.push_back(page.page());
   return {{"versions", summary.at("versions")},
           {"methods", method_styles()},
           {"meshes", meshes.page()},

@@ -6,6 +6,7 @@
 
 #include "bench/columns.hpp"
 #include "bench/figure.hpp"
+#include "bench/parallel.hpp"
 #include "bench/results_folder.hpp"
 #include "bench/run_json.hpp"
 #include <seam/error.hpp>
@@ -33,6 +34,7 @@ Json scene_json(const Comparison& comparison) {
   const Scene& scene = comparison.scene;
   const Recording& recording = comparison.runs.front().recording;
   return {{"scene", scene.name},
+          {"arm", scene.arm},
           {"title", scene.title},
           {"figure", scene.figure},
           {"file", scene.text},
@@ -53,11 +55,9 @@ Json summary(const std::vector<Comparison>& comparisons, const std::string& seam
   for (const Comparison& comparison : comparisons) scenes.push_back(scene_json(comparison));
   for (const Comparison& comparison : comparisons)
     for (const Run& run : comparison.runs) {
-      Json entry{{"scene", comparison.scene.name},
-                 {"method", to_string(run.method)},
-                 {"dt", comparison.scene.dt},
-                 {"seed", comparison.scene.seed},
-                 {"outcomes", outcomes_json(run.recording)}};
+      Json entry{{"scene", comparison.scene.name},  {"arm", comparison.scene.arm},
+                 {"method", to_string(run.method)}, {"dt", comparison.scene.dt},
+                 {"seed", comparison.scene.seed},   {"outcomes", outcomes_json(run.recording)}};
       entry.update(to_json(run));
       runs.push_back(std::move(entry));
     }
@@ -71,26 +71,32 @@ void remove_file(const std::filesystem::path& path) {
   if (status) throw Error(path.string(), "cannot be replaced: " + status.message());
 }
 
+void write_comparison(const Comparison& comparison, const std::string& dir) {
+  const std::filesystem::path folder =
+      std::filesystem::path(dir) / on_arm(comparison.scene.name, comparison.scene.arm);
+  make_folder(folder.string());
+  for (const Run& run : comparison.runs) {
+    const std::string beside = (folder / to_string(run.method)).string();
+    run.recording.write(beside + ".csv");
+    run.replay.write(beside + ".replay.json");
+  }
+  draw_figures(comparison, dir);
+}
+
 }  // namespace
 
 void write_results(const std::vector<Comparison>& comparisons, const std::string& seam_version,
-                   const std::string& dir) {
+                   const std::string& dir, int jobs) {
   const std::filesystem::path results = dir;
   make_folder(results.string());
   for (const char* last : {"summary.json", "report.html"}) remove_file(results / last);
   std::string tables;
-  for (const Comparison& comparison : comparisons) {
-    const std::filesystem::path folder = results / comparison.scene.name;
-    make_folder(folder.string());
-    for (const Run& run : comparison.runs) {
-      const std::string beside = (folder / to_string(run.method)).string();
-      run.recording.write(beside + ".csv");
-      run.replay.write(beside + ".replay.json");
-    }
-    draw_figures(comparison, dir);
-    tables += (tables.empty() ? "" : "\n") + comparison.scene.title + " (`" +
-              comparison.scene.name + "`):\n\n" + table(comparison);
-  }
+  for (const Comparison& comparison : comparisons)
+    tables += (tables.empty() ? "" : "\n") + title_on_arm(comparison.scene) + " (`" +
+              on_arm(comparison.scene.name, comparison.scene.arm) + "`):\n\n" + table(comparison);
+  for_each_index(static_cast<std::int64_t>(comparisons.size()), jobs, [&](std::int64_t i) {
+    write_comparison(comparisons[static_cast<std::size_t>(i)], dir);
+  });
   write_whole((results / "table.md").string(), tables);
   write_whole((results / "overview.md").string(), overview(comparisons));
   write_whole((results / "summary.json").string(),

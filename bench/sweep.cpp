@@ -96,7 +96,7 @@ void Sweep::probe() {
   for (std::int64_t i = 0; i < tries; ++i) try {
       Scene scene = Scene::read(scene_, overrides_of(i * samples / tries), allowed_);
       scene.duration = probe_ticks * scene.dt;
-      for (const Column& column : columns(seam::play(scene, Join::dmp2, scene.dt)))
+      for (const Column& column : columns(play_at_first_place(scene, Join::dmp2, scene.dt)))
         contents_.metrics.push_back(column.name);
       return;
     } catch (const Error& error) {

@@ -117,6 +117,8 @@ void add_joins(const Scene& scene, const Sequencer& sequencer, std::vector<Recor
 
 Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
                   Replay* replay = nullptr) {
+  if (!(dt >= 0.5 * least_tick && dt <= largest_tick))
+    throw Error(scene.name, "a tick of " + std::to_string(dt) + " s, must be in 1e-6 to 0.1 s");
   World world;
   RobotSettings settings;
   settings.encoders = scene.encoders;
@@ -171,8 +173,6 @@ void keep_worse(const std::vector<Outcome>& other, std::vector<Outcome>& outcome
 }  // namespace
 
 Recording play(const Scene& scene, Join method, double dt, Replay* replay) {
-  if (!(dt >= 0.5 * least_tick && dt <= largest_tick))
-    throw Error(scene.name, "a tick of " + std::to_string(dt) + " s, must be in 1e-6 to 0.1 s");
   Recording recording = play_at(scene, method, dt, 0, replay);
   for (std::size_t place = 1; place < scene.places(); ++place) {
     const Recording other = play_at(scene, method, dt, place);
@@ -180,6 +180,10 @@ Recording play(const Scene& scene, Join method, double dt, Replay* replay) {
     if (recording.incident.empty()) recording.incident = other.incident;
   }
   return recording;
+}
+
+Recording play_at_first_place(const Scene& scene, Join method, double dt) {
+  return play_at(scene, method, dt, 0);
 }
 
 }  // namespace seam

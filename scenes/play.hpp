@@ -14,4 +14,7 @@ namespace seam {
 /// @throws Error  see Robot and Controller
 Recording play(const Scene& scene, Join method, double dt, Replay* replay = nullptr);
 
+/// The same at the first of the scene's places alone: the recording is that of `play`, what came of it is not the worst of all.
+Recording play_at_first_place(const Scene& scene, Join method, double dt);
+
 }  // namespace seam

@@ -206,7 +206,7 @@ void know(const Known& known, Scene& scene) {
 // The scene's arm: its file, if it is not ideal.
 std::optional<YamlEntry> arm_file(const YamlEntry& scene_file, Scene& scene) {
   const auto arm = scene_file.find("arm");
-  if (!arm || arm->text() == "ideal") return std::nullopt;
+  if (!arm || arm->text() == ideal_arm) return std::nullopt;
   scene.arm = arm->text();
   const bool is_path = scene.arm.find_first_of("/.") != std::string::npos;
   const std::string path = is_path ? arm->path() : named_arm(scene.urdf, scene.arm);

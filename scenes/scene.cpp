@@ -134,6 +134,10 @@ void hasten(double factor, Scene& scene) {
 
 }  // namespace
 
+std::string on_arm(const std::string& scene, const std::string& arm) {
+  return arm == ideal_arm ? scene : scene + "-" + arm;
+}
+
 Sequence Scene::sequence_at(std::size_t place) const {
   if (place == 0) return sequence;
   return changed(sequence, sequence.start_delay(), [&](Sequence::Step& step) {

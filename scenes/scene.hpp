@@ -20,6 +20,12 @@ namespace seam {
 inline constexpr double least_tick = 1e-6;
 inline constexpr double largest_tick = 0.1;
 
+/// The arm that is all that a controller could wish for: no file tells of it.
+inline constexpr const char* ideal_arm = "ideal";
+
+/// What comes of a scene on an arm has a name of its own: `line` on the ideal one, else `line-published`.
+std::string on_arm(const std::string& scene, const std::string& arm);
+
 /// Grains that are poured from a bottle in the hand into a glass, which stands at any of several places.
 struct Pouring {
   VesselSettings bottle, glass;
@@ -37,7 +43,7 @@ struct Scene {
   std::string text;                    // the file as it stands
   std::vector<std::string> overrides;  // with which it was read
   std::string urdf;                    // path of the robot's
-  std::string arm = "ideal";           // how it differs from an ideal one: name of its file
+  std::string arm = ideal_arm;         // how it differs from an ideal one: name of its file
   RobotModel robot;                    // as the controller takes it to be
   RobotModel simulated;  // as Bullet has it: with the joints of a liquid behind the others
   RobotSettings::Encoders encoders = RobotSettings::Encoders::motor;

@@ -21,8 +21,11 @@ const char* const tolerances =
     "  jump: {relative: 0.01, absolute: 0.001}\n"
     "  order: {absolute: 0.1, better: higher}\n"
     "  deviation: {relative: 0.01, better: neither}\n"
+    "arms:\n"
+    "  published: {jump: {relative: 0.1}, order: {absolute: 1, better: higher}}\n"
     "scenes:\n"
-    "  rough: {jump: {relative: 0.5}}\n";
+    "  rough: {jump: {relative: 0.5}}\n"
+    "  rough-published: {order: {absolute: 2, better: higher}}\n";
 
 class Gate : public testing::Test {
  protected:
@@ -82,6 +85,21 @@ TEST_F(Gate, HasTolerancesOfItsOwnForAScene) {
   EXPECT_THAT(differences({{"rough", {{"dmp3", {{"jump", 2.9}}}}}}), IsEmpty());
   EXPECT_THAT(differences({{"rough", {{"dmp3", {{"jump", 3.1}}}}}}),
               ElementsAre(HasSubstr("worse")));
+}
+
+// That of the scene on the arm, of the scene, of the arm, of all.
+TEST_F(Gate, HasTolerancesOfItsOwnForAnArm) {
+  for (const char* scene : {"line-published", "rough-published"})
+    Baselines(dir()).update({{scene, {{"dmp3", {{"jump", 2.0}, {"order", 1.9}}}}}});
+  const auto on_arm = [&](const char* scene, double jump, double order) {
+    return differences({{scene, {{"dmp3", {{"jump", jump}, {"order", order}}}}}});
+  };
+  EXPECT_THAT(on_arm("line-published", 2.19, 0.95), IsEmpty());
+  EXPECT_THAT(on_arm("line-published", 2.21, 0.85),
+              ElementsAre("line-published dmp3: jump 2 -> 2.21, worse by 10.5 % (allowed: 10 %)",
+                          HasSubstr("order 1.9 -> 0.85, worse")));
+  EXPECT_THAT(on_arm("rough-published", 2.9, -0.05), IsEmpty());
+  EXPECT_THAT(on_arm("rough-published", 3.1, -0.15), testing::SizeIs(2));
 }
 
 // So that a renewal shows in a diff what has changed and nothing else.

@@ -51,6 +51,8 @@ completes "seam " "${commands[@]}"
 completes "seam re" render report
 completes "seam bench ca" carrying catching
 completes "seam bench --method dmp2" dmp2 dmp2a dmp2j
+completes "seam bench --arm " both ideal published
+completes "seam run --arm " ideal published
 completes "seam experiment go" goal-change
 completes "seam sweep --sa" --samples
 for command in "${commands[@]}"; do

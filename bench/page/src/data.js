@@ -2,6 +2,11 @@
 
 export const report = JSON.parse(document.getElementById('data').textContent);
 
+export const methods_of = (scene) => [...new Set(scene.runs.map((run) => run.method))];
+
+// What is said of a method's runs on both arms: `a / b`, or one where they are alike.
+export const of_both = (texts) => [...new Set(texts)].join(' / ');
+
 async function inflate(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));

@@ -1,7 +1,7 @@
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
 import { by_id, fill, make } from './dom.js';
-import { Pack, report, row_at } from './data.js';
+import { methods_of, Pack, report } from './data.js';
 import { Plots } from './plots.js';
 import { View } from './view.js';
 import { coordinate_label } from './units.js';
@@ -12,6 +12,7 @@ const frame = 1 / 60; // [s]
 
 const hidden = new Set();
 let scene = null;
+let arms = 'both'; // or which of the scene's
 let time = 0;
 let playing = false;
 let last_frame = null;
@@ -33,7 +34,7 @@ async function open(data) {
   data.tick = data.runs[0].dt;
   data.joins = [...new Set(data.runs.flatMap((run) => run.joins.map((join) => join.time)))].sort((a, b) => a - b);
   data.largest = (name) =>
-    Math.max(...data.runs.map((run) => run.curve(name)?.reduce((most, v) => Math.max(most, Math.abs(v)), 0) ?? 0));
+    Math.max(...data.shown.map((run) => run.curve(name)?.reduce((most, v) => Math.max(most, Math.abs(v)), 0) ?? 0));
   data.starts = starts(data);
   await view.unpack(data, pack);
 }
@@ -48,6 +49,14 @@ function starts(data) {
   });
 }
 
+// The runs on the arms that are shown.
+function pick_arms(data) {
+  const on = data.arms[arms] ?? data.arms[0];
+  data.shown = data.runs.filter((run) => arms === 'both' || run.arm === on);
+}
+
+const arms_shown = (data) => [...new Set(data.shown.map((run) => run.arm))];
+
 const coordinates = (data) => data.curves.filter((c) => c.startsWith('ref_acc.')).map((c) => c.slice(8));
 const joints = (data) => data.curves.filter((c) => c.startsWith('torque.')).map((c) => c.slice(7));
 
@@ -57,6 +66,7 @@ async function choose(index) {
   play(false);
   await open(data);
   scene = data;
+  pick_arms(data);
   const own = coordinates(data);
   const tool = own.filter((c) => !joints(data).includes(c));
   const option = (chosen) => (name) => make('option', { value: name, selected: name === chosen }, coordinate_label(name));
@@ -68,18 +78,48 @@ async function choose(index) {
   }
   by_id('scene').setAttribute('aria-labelledby', `tab-${index}`);
   by_id('title').textContent = data.title;
-  by_id('headline').textContent = headline(data);
+  show_arms();
   show_methods();
   show_join_buttons();
-  show_figures(data);
-  show_joins(data, zoom_to_join);
   show_configuration(data);
-  view.show(data, hidden);
+  show_runs();
   by_id('time').max = data.time.at(-1);
   by_id('time').step = data.tick;
   draw_plots();
   go(data.joins.at(-1) ?? 0);
   if (location.hash.slice(1) !== data.name) history.replaceState(null, '', `#${encodeURIComponent(data.name)}`);
+}
+
+// All that depends on which arms are shown.
+function show_runs() {
+  fill(by_id('headline'), ...headline(scene));
+  show_figures(scene);
+  show_joins(scene, zoom_to_join);
+  view.show(scene, hidden);
+}
+
+function choose_arms(chosen) {
+  if (scene.arms.length < 2) return;
+  arms = chosen;
+  pick_arms(scene);
+  const focused = by_id('arms').contains(document.activeElement);
+  show_arms();
+  if (focused) by_id('arms').querySelector('[aria-pressed=true]').focus();
+  show_runs();
+  draw_plots();
+  go(time);
+}
+
+function show_arms() {
+  const several = scene.arms.length > 1;
+  by_id('arms').hidden = !several;
+  const button = (chosen, label, ...lines) =>
+    make('button', {
+      type: 'button', 'aria-pressed': String(arms === chosen), 'data-arms': String(chosen), title: 'Which arms are shown (A)',
+      onclick: () => choose_arms(chosen),
+    }, ...lines, label);
+  const lines = [line('opacity="0.35" stroke-width="5"'), line('stroke-width="1.75"')];
+  fill(by_id('arms'), ...scene.arms.map((arm, i) => button(i, `${arm} arm`, several && arms === 'both' ? lines[i] : '')), button('both', 'both'));
 }
 
 const draw_plots = () => plots.show(scene, by_id('coordinate').value, by_id('joint').value);
@@ -100,19 +140,23 @@ const next_scene = (step) =>
   choose((report.scenes.indexOf(scene) + step + report.scenes.length) % report.scenes.length);
 
 function show_methods() {
-  fill(by_id('methods'), ...scene.runs.map((run, i) =>
+  fill(by_id('methods'), ...methods_of(scene).map((method, i) =>
     make('button', {
-      type: 'button', class: 'toggle', style: `--method: var(--${run.method})`, 'data-method': run.method,
-      'aria-pressed': String(!hidden.has(run.method)), title: `Show or hide (${i + 1})`, onclick: () => toggle(run.method),
-    }, sample(run.method), run.method)));
+      type: 'button', class: 'toggle', style: `--method: var(--${method})`, 'data-method': method,
+      'aria-pressed': String(!hidden.has(method)), title: `Show or hide (${i + 1})`, onclick: () => toggle(method),
+    }, sample(method), method)));
 }
 
 // A bit of the method's line.
 function sample(method) {
   const { dash } = report.methods.find((m) => m.name === method);
+  return line(`stroke-width="2.5" ${dash[0] ? `stroke-dasharray="${dash}"` : ''}`);
+}
+
+function line(style) {
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
   svg.setAttribute('viewBox', '0 0 26 6');
-  svg.innerHTML = `<line x1="0" y1="3" x2="26" y2="3" stroke="currentColor" stroke-width="2.5" ${dash[0] ? `stroke-dasharray="${dash}"` : ''}/>`;
+  svg.innerHTML = `<line x1="0" y1="3" x2="26" y2="3" stroke="currentColor" ${style}/>`;
   return svg;
 }
 
@@ -223,6 +267,7 @@ const keys = {
   g: () => set_layout('ghosts'),
   s: () => set_layout('side'),
   c: () => view.set_close(by_id('close-up').getAttribute('aria-pressed') !== 'true'),
+  a: () => choose_arms({ both: 0, 0: 1, 1: 'both' }[arms]),
   t: () => set_theme(themes[(themes.indexOf(theme) + 1) % themes.length]),
   '?': () => by_id('help').click(),
 };
@@ -235,8 +280,8 @@ function on_key(event) {
   if (at.id === 'view' && event.key.startsWith('Arrow')) return;
   if (at.matches('input[type=range]') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
   if (at.matches('.scroll, pre') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
-  const run = /^[1-9]$/.test(event.key) && scene.runs[event.key - 1];
-  const act = run ? () => toggle(run.method) : keys[event.key];
+  const method = /^[1-9]$/.test(event.key) && methods_of(scene)[event.key - 1];
+  const act = method ? () => toggle(method) : keys[event.key];
   if (!act) return;
   event.preventDefault();
   act(event.shiftKey);
@@ -299,7 +344,7 @@ async function start() {
 // For the test that drives the page.
 window.seam_report = {
   get state() {
-    return { scene: scene?.name, time, playing, ranges: plots.ranges(), hidden: [...hidden], ...view.state() };
+    return { scene: scene?.name, time, playing, ranges: plots.ranges(), hidden: [...hidden], on: scene && arms_shown(scene), ...view.state() };
   },
   picture: () => view.picture(),
 };

@@ -1,10 +1,12 @@
 // Curves over time with one zoom and one cursor for all of them.
 import uPlot from 'uplot';
 import { make, fill, by_id } from './dom.js';
-import { row_at } from './data.js';
+import { methods_of, of_both, row_at } from './data.js';
 import { coordinate_label, digits, signal_label, ticks, unit_of } from './units.js';
 
 const colour_of = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+const pale = '59'; // opacity of an arm's curves below another's
 
 // What a scene's plots show of a coordinate of the primitives and a joint.
 function panels(scene, coordinate, joint) {
@@ -59,15 +61,15 @@ export class Plots {
   }
 
   make(panel) {
-    const readouts = this.scene.runs.map((run) =>
-      make('span', { class: 'readout', style: `--method: var(--${run.method})`, 'data-method': run.method }));
+    const readouts = methods_of(this.scene).map((method) =>
+      make('span', { class: 'readout', style: `--method: var(--${method})`, 'data-method': method }));
     const title = make('div', { class: 'plot-head' },
       make('span', { class: 'plot-title' }, panel.label, make('span', { class: 'unit' }, panel.unit ? ` [${panel.unit}]` : '')),
       make('span', { class: 'readouts' }, ...readouts));
     const box = make('figure', { class: 'plot' }, title);
     by_id('plots').append(box);
     const { scale = 1 } = panel;
-    const curves = this.scene.runs.map((run) => (scale === 1 ? run.curve(panel.curve) : run.curve(panel.curve).map((v) => scale * v)));
+    const curves = this.scene.shown.map((run) => (scale === 1 ? run.curve(panel.curve) : run.curve(panel.curve).map((v) => scale * v)));
     const largest = scale * this.scene.largest(panel.curve);
     const plot = new uPlot(this.options(panel), [this.scene.time, ...curves], box);
     plot.over.setAttribute('role', 'img');
@@ -98,16 +100,17 @@ export class Plots {
       ],
       series: [
         {},
-        ...this.scene.runs.map((run) => {
+        ...this.scene.shown.map((run) => {
           const { dash } = this.methods.find((m) => m.name === run.method);
-          const stroke = colour_of(`--${run.method}`);
+          const below = run.arm !== this.scene.shown.at(-1).arm;
+          const stroke = colour_of(`--${run.method}`) + (below ? pale : '');
           return {
             label: run.method,
             stroke,
-            width: 1.75,
-            dash: dash[0] ? dash : undefined,
+            width: below ? 5 : 1.75,
+            dash: dash[0] && !below ? dash : undefined,
             show: !this.hidden.has(run.method),
-            points: { show: (u) => this.sparse(u), size: 5, fill: stroke },
+            points: { show: (u) => !below && this.sparse(u), size: 5, fill: stroke },
           };
         }),
       ],
@@ -189,10 +192,9 @@ export class Plots {
   set_hidden(method, hidden) {
     if (hidden) this.hidden.add(method);
     else this.hidden.delete(method);
-    const index = this.scene.runs.findIndex((run) => run.method === method);
     for (const { plot, readouts } of this.plots) {
-      plot.setSeries(index + 1, { show: !hidden });
-      readouts[index].hidden = hidden;
+      this.scene.shown.forEach((run, i) => run.method === method && plot.setSeries(i + 1, { show: !hidden }));
+      readouts.find((readout) => readout.dataset.method === method).hidden = hidden;
     }
   }
 
@@ -201,10 +203,12 @@ export class Plots {
     const row = row_at(this.scene.time, time + 0.5 * this.scene.tick);
     for (const { plot, curves, readouts, largest } of this.plots) {
       this.place_cursor(plot);
-      readouts.forEach((readout, i) => {
-        readout.textContent = digits(curves[i][row], largest);
-        readout.hidden = this.hidden.has(readout.dataset.method);
-      });
+      for (const readout of readouts) {
+        const { method } = readout.dataset;
+        const own = curves.filter((_, i) => this.scene.shown[i].method === method);
+        readout.textContent = of_both(own.map((curve) => digits(curve[row], largest)));
+        readout.hidden = this.hidden.has(method);
+      }
     }
   }
 

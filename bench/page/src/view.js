@@ -107,24 +107,28 @@ export class View {
   }
 
   show(data, hidden) {
+    const moved = this.data !== data;
     this.data = data;
     this.hidden = hidden;
     for (const arm of this.arms) arm.dispose();
     this.arms = [];
-    const shown = data.runs.filter((run) => this.renderer && run.motion);
-    this.tell_of(data, shown);
+    const { arm } = data.shown.at(-1);
+    const runs = data.shown.filter((run) => run.arm === arm);
+    const shown = runs.filter((run) => this.renderer && run.motion);
+    this.tell_of(data, runs, shown);
     if (!shown.length) return;
     this.arms = shown.map((run) => new Arm(data.stage, run, data.geometries));
     for (const arm of this.arms) this.stage.add(arm.group);
-    const first = shown.find((run) => run.method === 'dmp3') ?? shown.at(-1);
+    const kept = !moved && shown.find((run) => run.method === this.solid);
+    const first = kept || (shown.find((run) => run.method === 'dmp3') ?? shown.at(-1));
     this.solid = first.method;
     fill(by_id('solid'), ...shown.map((run) => make('option', { value: run.method, selected: run === first }, run.method)));
-    this.reset_camera();
+    if (moved) this.reset_camera();
     this.repaint();
   }
 
-  tell_of(data, shown) {
-    const missing = data.runs.filter((run) => !shown.includes(run)).map((run) => run.method);
+  tell_of(data, runs, shown) {
+    const missing = runs.filter((run) => !shown.includes(run)).map((run) => run.method);
     const words = !this.renderer
       ? 'This browser has no WebGL: the arm is not shown.'
       : data.why_no_arm
@@ -225,7 +229,8 @@ export class View {
     if (!this.arms.length) return '';
     const { primitives } = this.data.stage;
     const names = new Set(this.arms.map(({ motion }) => primitives[motion.running[row_at(motion.times, time)]] ?? 'waiting to start'));
-    return `Running: ${[...names].join(', ')}`;
+    const on = this.data.arms.length > 1 ? ` on the ${this.data.shown.at(-1).arm} arm` : '';
+    return `Running${on}: ${[...names].join(', ')}`;
   }
 
   grid(count) {
