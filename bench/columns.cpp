@@ -210,10 +210,13 @@ bool is_share(const Outcome& outcome) {
 }
 
 ShownOutcome shown_outcome(const Outcome& outcome) {
-  std::string name = outcome.name.substr(0, outcome.name.rfind('_'));
+  const std::size_t ending = outcome.name.rfind('_');
+  std::string name = outcome.name.substr(0, ending);
   std::replace(name.begin(), name.end(), '_', ' ');
-  return {name, is_share(outcome) ? fmt::format("{:.3g} %", 100.0 * outcome.value)
-                                  : fmt::format("{:.1f} mm", 1e3 * outcome.value)};
+  if (is_share(outcome)) return {name, fmt::format("{:.3g} %", 100.0 * outcome.value)};
+  const std::string unit = outcome.name.substr(ending + 1);
+  if (unit == "m") return {name, fmt::format("{:.1f} mm", 1e3 * outcome.value)};
+  return {name, fmt::format("{:.3g} {}", outcome.value, unit == "nm" ? "N·m" : "Hz")};
 }
 
 // The same scene and method on each arm, the ideal one first.
@@ -270,7 +273,7 @@ std::vector<std::string> overview_row(const Scene& scene, const OnArms& runs) {
           std::string(to_string(last.method)),
           came_of(runs),
           of_both(runs, &M::torque_jump_nm, "{:.3g}"),
-          shown(runs.front()->metrics.torque_jump_order, "{:.1f}"),
+          of_both(runs, &M::torque_jump_order, "{:.1f}"),
           of_both(runs, &M::torque_rate_peak_nm_s, "{:.0f}"),
           missed(last.recording, metrics.tracking_after_join_max_rad,
                  metrics.tool_tracking_after_join_max_m, metrics.tool_tracking_after_join_max_rad),
@@ -284,8 +287,8 @@ std::string legend(const std::set<std::string>& others) {
   std::string arm;
   for (const std::string& other : others) arm += (arm.empty() ? "" : " or ") + other;
   return fmt::format(
-      "\n`a / b`: on the ideal arm / on the {0} arm; one figure where both agree. Order: on the "
-      "ideal arm. Tracking errors, in the 0.2 s after a join and over all, and the time at a limit "
+      "\n`a / b`: on the ideal arm / on the {0} arm; one figure where both agree. Tracking "
+      "errors, in the 0.2 s after a join and over all, and the time at a limit "
       "of the drives: on the {0} arm.\n",
       arm);
 }

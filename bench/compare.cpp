@@ -13,26 +13,35 @@ namespace seam {
 
 namespace {
 
+constexpr double ticks_after_a_join = 50;  // that its torque jump takes, and more
+
 struct Play {
   const Scene* scene;
   Join method;
-  double dt;
-  bool whole;  // filmed, at all places; else the recording is all that is wanted
   Recording recording;
+  Recording half;  // at dt/2, at the first place alone, until the last join
   Replay replay;
-  double wall = 0.0;  // [s]
+  double wall = 0.0;  // [s] of the recording
 };
+
+// Nothing but the joins is measured at dt/2.
+Recording half(const Scene& scene, Join method, const Recording& whole) {
+  Scene until_last_join = scene;
+  if (!whole.joins.empty())
+    until_last_join.duration =
+        std::min(scene.duration, whole.joins.back().time + ticks_after_a_join * scene.dt);
+  return play_at_first_place(until_last_join, method, 0.5 * scene.dt);
+}
 
 void perform(Play& play) {
   const auto begin = std::chrono::steady_clock::now();
-  play.recording = play.whole ? seam::play(*play.scene, play.method, play.dt, &play.replay)
-                              : play_at_first_place(*play.scene, play.method, play.dt);
+  play.recording = seam::play(*play.scene, play.method, play.scene->dt, &play.replay);
   play.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  play.half = half(*play.scene, play.method, play.recording);
 }
 
 std::string description(const Play& play) {
-  return on_arm(play.scene->name, play.scene->arm) + " " + std::string(to_string(play.method)) +
-         ", dt " + std::to_string(play.dt * 1e3) + " ms";
+  return on_arm(play.scene->name, play.scene->arm) + " " + std::string(to_string(play.method));
 }
 
 void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
@@ -47,21 +56,16 @@ void perform_all(std::vector<Play>& plays, int jobs, const Progress& progress) {
 }
 
 double simulated(const Play& play) {
-  return play.dt * play.recording.ticks() * static_cast<double>(play.scene->places());
+  return play.scene->dt * play.recording.ticks() * static_cast<double>(play.scene->places());
 }
 
 // But for the recording and the replay, which others may be measured by.
-Run measured(const Play& full, const Recording* half, const Play& dmp2) {
+Run measured(const Play& play, const Play& dmp2) {
   Run run;
-  run.method = full.method;
-  run.metrics = measure(full.recording, {half, &dmp2.recording});
-  run.real_time_factor = simulated(full) / full.wall;
+  run.method = play.method;
+  run.metrics = measure(play.recording, {&play.half, &dmp2.recording});
+  run.real_time_factor = simulated(play) / play.wall;
   return run;
-}
-
-// What drives with a lag, and torques in steps, make of a jump does not follow the tick.
-bool has_order(const Scene& scene) {
-  return scene.arm == ideal_arm;
 }
 
 // dmp2 is always played: it is what the others deviate from.
@@ -82,10 +86,7 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
   const std::vector<Join> played = with_dmp2(methods);
   std::vector<Play> plays;
   for (const Scene& scene : scenes)
-    for (const Join method : played) {
-      plays.push_back({&scene, method, scene.dt, true, {}, {}, 0.0});
-      if (has_order(scene)) plays.push_back({&scene, method, 0.5 * scene.dt, false, {}, {}, 0.0});
-    }
+    for (const Join method : played) plays.push_back({&scene, method, {}, {}, {}, 0.0});
   perform_all(plays, jobs, progress);
 
   const auto play_of = [&](const Scene& scene, Join method) {
@@ -97,15 +98,12 @@ std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vec
   for (const Scene& scene : scenes) {
     const auto dmp2 = play_of(scene, Join::dmp2);
     Comparison comparison{scene, {}};
-    for (const Join method : methods) {
-      const auto full = play_of(scene, method);
-      const Recording* half = has_order(scene) ? &(full + 1)->recording : nullptr;
-      comparison.runs.push_back(measured(*full, half, *dmp2));
-    }
+    for (const Join method : methods)
+      comparison.runs.push_back(measured(*play_of(scene, method), *dmp2));
     for (Run& run : comparison.runs) {
-      const auto full = play_of(scene, run.method);
-      run.recording = std::move(full->recording);
-      run.replay = std::move(full->replay);
+      const auto play = play_of(scene, run.method);
+      run.recording = std::move(play->recording);
+      run.replay = std::move(play->replay);
     }
     comparisons.push_back(std::move(comparison));
   }

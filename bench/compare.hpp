@@ -33,8 +33,8 @@ std::string title_on_arm(const Scene& scene);
 /// Called after each of the `total` plays has ended, from one thread at a time.
 using Progress = std::function<void(int done, int total, const std::string& what)>;
 
-/// Plays every scene with every method at its dt and, on the ideal arm, at dt/2 (for the order of the torque jump), on
-/// several threads; the results do not depend on how many.
+/// Plays every scene with every method at its dt, and until the last join at dt/2 (for the order of the torque jump), on several
+/// threads; the results do not depend on how many.
 /// @param jobs  threads, ≥ 1
 /// @throws Error  see play
 std::vector<Comparison> compare(const std::vector<Scene>& scenes, const std::vector<Join>& methods,
