@@ -97,9 +97,8 @@ TEST(Guard, TellsWhichJointIsOffItsReference) {
   GuardSettings settings;
   settings.most_error = Eigen::VectorXd(Eigen::Vector3d(0.2, infinity, 0.01));
   const Guard guard(robot(), settings);
-  EXPECT_EQ(guard.deviation(Eigen::Vector3d(0.19, 1e6, -0.009), rest, rest, false).cause,
-            Cause::none);
-  const Incident off = guard.deviation(Eigen::Vector3d(0.1, 0.0, -0.03), rest, rest, false);
+  EXPECT_EQ(guard.deviation(Eigen::Vector3d(0.19, 1e6, -0.009), rest, false).cause, Cause::none);
+  const Incident off = guard.deviation(Eigen::Vector3d(0.1, 0.0, -0.03), rest, false);
   EXPECT_EQ(off.cause, Cause::deviation);
   EXPECT_EQ(off.joint, 2);
   EXPECT_EQ(off.value, 0.03);
@@ -107,19 +106,27 @@ TEST(Guard, TellsWhichJointIsOffItsReference) {
 }
 
 // A wrist that friction holds back is asked for little; one that is lost for all there is.
-TEST(Guard, TakesAJointForLostWhereItsDriveIsAskedForMuch) {
+TEST(Guard, TakesAJointForLostWhereTheFeedbackAsksForMuch) {
   RobotModel model = robot();
   model.joints[0].effort = 17.0;
   model.joints[1].effort = infinity;
-  const Guard guard(model, {});
-  const Eigen::Vector3d far(0.4, 0.0, 0.0), endless(0.0, 0.4, 0.0);
-  EXPECT_EQ(guard.deviation(far, rest, Eigen::Vector3d(8.4, 0.0, 0.0), false).cause, Cause::none);
-  EXPECT_EQ(guard.deviation(far, rest, Eigen::Vector3d(-8.5, 0.0, 0.0), false).joint, 0);
-  EXPECT_EQ(guard.deviation(far, rest, rest, true).joint, 0);
-  EXPECT_EQ(guard.deviation(endless, rest, rest, false).joint, 1);
+  model.joints[2].effort = 17.0;
+  const Eigen::VectorXd stiffness =
+      Eigen::Vector3d(10.0, 10.0, 1000.0);  // 0.85 and 0.0085 for half
+  const Guard guard(model, {}, 0.0, stiffness);
+  const auto joint = [&](double turn, double wheel, double slide, bool limited = false) {
+    return guard.deviation(Eigen::Vector3d(turn, wheel, slide), rest, limited).joint;
+  };
+  EXPECT_EQ(joint(0.84, 0.29, 0.29), -1);
+  EXPECT_EQ(joint(-0.86, 0.0, 0.0), 0);
+  EXPECT_EQ(joint(0.0, 0.31, 0.0), 1) << "without an effort limit";
+  EXPECT_EQ(joint(0.0, 0.0, 0.31), 2);
+  EXPECT_EQ(joint(0.31, 0.0, 0.0, true), 0) << "a drive has no more to give";
   GuardSettings error_alone;
   error_alone.least_effort = 0.0;
-  EXPECT_EQ(Guard(model, error_alone).deviation(far, rest, rest, false).joint, 0);
+  const Eigen::Vector3d far(0.31, 0.0, 0.0);
+  EXPECT_EQ(Guard(model, error_alone, 0.0, stiffness).deviation(far, rest, false).joint, 0);
+  EXPECT_EQ(Guard(model, {}).deviation(far, rest, false).joint, 0);
 }
 
 TEST(Guard, AllowsAShareOfTheRangeBeyondALimit) {
@@ -159,7 +166,7 @@ TEST(Guard, WatchesNothingWithInfiniteBounds) {
   Guard guard(robot(), off);
   const Eigen::VectorXd far = Eigen::Vector3d::Constant(1e9);
   for (int k = 0; k < 10; ++k) EXPECT_TRUE(guard.trusts(dt, rest, rest, k * far));
-  EXPECT_EQ(guard.deviation(far, rest, rest, false).cause, Cause::none);
+  EXPECT_EQ(guard.deviation(far, rest, false).cause, Cause::none);
   EXPECT_EQ(guard.beyond_limits(far).cause, Cause::none);
   EXPECT_FALSE(guard.trusts(dt, Eigen::Vector3d::Constant(NAN), rest, rest));
   EXPECT_FALSE(guard.lost());
@@ -200,12 +207,12 @@ TEST(Guard, IncidentsAreToldInOneLine) {
 
 TEST(Guard, AllocatesNothingAsItWatches) {
   Guard guard(robot(), {});
-  Eigen::VectorXd q = rest, qd = rest, reference = rest, torque = rest;
+  Eigen::VectorXd q = rest, qd = rest, reference = rest;
   const AllocationGuard allocation;
   for (int k = 0; k < 100; ++k) {
     q(0) = k % 2 ? NAN : 0.01 * k;
     guard.trusts(dt, q, qd, reference);
-    guard.deviation(q, reference, torque, false);
+    guard.deviation(q, reference, false);
     guard.beyond_limits(q);
   }
   EXPECT_EQ(allocation.allocations(), 0);

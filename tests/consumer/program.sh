@@ -51,7 +51,7 @@ completes "seam " "${commands[@]}"
 completes "seam re" render report
 completes "seam bench ca" carrying catching
 completes "seam bench --method dmp2" dmp2 dmp2a dmp2j
-completes "seam bench --arm " both ideal published
+completes "seam bench --arm " ideal published both
 completes "seam run --arm " ideal published
 completes "seam experiment go" goal-change
 completes "seam sweep --sa" --samples

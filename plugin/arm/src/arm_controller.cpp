@@ -52,6 +52,15 @@ ArmController::Tick tick_at(const RobotModel& model, const Eigen::VectorXd& q,
   return tick;
 }
 
+// Of the feedback, in the posture where the controller is made.
+Eigen::VectorXd stiffness(const RobotModel& model, const ControlSettings& law,
+                          const Eigen::VectorXd& q) {
+  Eigen::VectorXd inertia = model.moved_inertia(q);
+  for (int i = 0; i < model.dof(); ++i)
+    inertia(i) += model.joints[static_cast<std::size_t>(i)].rotor_inertia;
+  return inertia.cwiseProduct(law.Kp.each(model.dof()));
+}
+
 // All but the jerk, which the sequencer does not keep up to date.
 void take_over(const Sample& motion, Sample& into) {
   into.position = motion.position;
@@ -69,7 +78,7 @@ ArmController::ArmController(const RobotModel& model, const Sequence& sequence,
       joints_(reference(model, sequence, settings.tool, q)),
       sequencer_(sequence, join, joints_->measured(q, qd)),
       law_(model, settings.law),
-      guard_(model, settings.guard, settings.sensor.delay),
+      guard_(model, settings.guard, settings.sensor.delay, stiffness(model, settings.law, q)),
       offset_(model.dof()),
       actuator_(model, settings.actuator),
       sensor_(model, settings.sensor),
@@ -151,8 +160,7 @@ void ArmController::watch(bool there) noexcept {
   if (!there) return bridge();
   if (blind_) regain();
   blind_ = false;
-  const Incident off =
-      guard_.deviation(q(), tick_.reference.position, tick_.torque, actuator_.limited());
+  const Incident off = guard_.deviation(q(), tick_.reference.position, actuator_.limited());
   if (off.cause != Incident::Cause::none) stop_here(off);
 }
 

@@ -34,7 +34,8 @@ double checked(const char* what, double value) {
 
 // What the observer may add: see ControlSettings::most_correction.
 Eigen::VectorXd most_correction(const RobotModel& model, double share, const Eigen::VectorXd& Kp) {
-  const Eigen::VectorXd inertia = model.moved_inertia() + of_joints(model, &Joint::rotor_inertia);
+  const Eigen::VectorXd inertia =
+      model.moved_inertia(model.neutral()) + of_joints(model, &Joint::rotor_inertia);
   Eigen::VectorXd most = share * Kp;
   for (int i = 0; i < model.dof(); ++i) {
     const double effort = model.joints[static_cast<std::size_t>(i)].effort;

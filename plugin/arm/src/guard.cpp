@@ -24,9 +24,10 @@ double slack(const Joint& joint, double share) {
   return std::isinf(share) || std::isinf(range) ? infinity : share * range;
 }
 
-// 0 where there is no limit.
-double least_torque(const Joint& joint, double share) {
-  return std::isinf(joint.effort) || std::isinf(share) ? 0.0 : share * joint.effort;
+// At which the feedback asks for a share of the effort limit, too.
+double lost_error(const Joint& joint, double most_error, double share, double stiffness) {
+  const bool matters = share > 0.0 && stiffness > 0.0 && std::isfinite(joint.effort);
+  return matters ? std::max(most_error, share * joint.effort / stiffness) : most_error;
 }
 
 const char* unit(const Joint& joint) {
@@ -61,10 +62,11 @@ std::string describe(const Incident& incident, const RobotModel& robot) {
   return line.str();
 }
 
-Guard::Guard(const RobotModel& model, const GuardSettings& settings, double delay)
+Guard::Guard(const RobotModel& model, const GuardSettings& settings, double delay,
+             const Eigen::VectorXd& stiffness)
     : settings_(settings),
       most_error_(settings.most_error.each(model.dof())),
-      least_torque_(model.dof()),
+      lost_error_(model.dof()),
       least_(model.dof()),
       most_(model.dof()),
       seen_q_(Eigen::VectorXd::Zero(model.dof())),
@@ -82,7 +84,8 @@ Guard::Guard(const RobotModel& model, const GuardSettings& settings, double dela
   for (const double bound : most_error_) require_bound("guard: most_error", bound);
   for (Eigen::Index i = 0; i < lower_.size(); ++i) {
     const Joint& joint = model.joints[static_cast<std::size_t>(i)];
-    least_torque_(i) = least_torque(joint, settings.least_effort);
+    lost_error_(i) = lost_error(joint, most_error_(i), settings.least_effort,
+                                stiffness.size() == 0 ? 0.0 : stiffness(i));
     lower_(i) = joint.lower;
     upper_(i) = joint.upper;
     slack_(i) = slack(joint, settings.beyond_limits);
@@ -130,11 +133,12 @@ Incident Guard::dropout() const noexcept {
 }
 
 Incident Guard::deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference,
-                          const Eigen::VectorXd& torque, bool limited) const noexcept {
+                          bool limited) const noexcept {
+  const Eigen::VectorXd& most = limited ? most_error_ : lost_error_;
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const double error = std::abs(q(i) - reference(i));
-    if (error > most_error_(i) && (limited || std::abs(torque(i)) >= least_torque_(i)))
-      return {Incident::Cause::deviation, 0.0, static_cast<int>(i), error, most_error_(i)};
+    if (error > most(i))
+      return {Incident::Cause::deviation, 0.0, static_cast<int>(i), error, most(i)};
   }
   return {};
 }

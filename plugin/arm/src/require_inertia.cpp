@@ -300,8 +300,8 @@ class Inertia {
 
 }  // namespace
 
-Eigen::VectorXd RobotModel::moved_inertia() const {
-  return joint_inertia(*this, neutral()).matrix.diagonal();
+Eigen::VectorXd RobotModel::moved_inertia(const Eigen::VectorXd& q) const {
+  return joint_inertia(*this, q).matrix.diagonal();
 }
 
 void require_inertia(RobotModel& model, const std::string& path) {

@@ -33,7 +33,7 @@ DriveTrain drive_train(const RobotModel& model, btMultiBody& multibody, bool sim
 
 // Bullet takes an inertia below its precision's for none, and does not move the joint.
 void warn_of_small_inertia(RobotModel& model) {
-  const Eigen::VectorXd moved = model.moved_inertia();
+  const Eigen::VectorXd moved = model.moved_inertia(model.neutral());
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const double inertia = moved(static_cast<Eigen::Index>(i));
     if (inertia >= SIMD_EPSILON) continue;
@@ -66,6 +66,9 @@ struct Robot::Parts {
   void add_to_world();
   void place_colliders();
   void rest_drives(const Eigen::Vector3d& gravity);
+  btScalar& joint_torque(int joint) { return multibody->getLink(joint).m_jointTorque[0]; }
+  const Eigen::VectorXd& behind_drives(double dt, const Eigen::VectorXd& given,
+                                       bool still_stands) noexcept;
 
   RobotModel model;
   btMultiBodyDynamicsWorld& world;
@@ -183,6 +186,17 @@ void Robot::Parts::rest_drives(const Eigen::Vector3d& gravity) {
   drives->reset(holding);
 }
 
+// What the drives' torques become on their way to the bodies. What stands of ours is taken back first.
+const Eigen::VectorXd& Robot::Parts::behind_drives(double dt, const Eigen::VectorXd& given,
+                                                   bool still_stands) noexcept {
+  if (still_stands)
+    for (int i = 0; i < model.dof(); ++i) joint_torque(i) -= static_cast<btScalar>(applied(i));
+  applied.setZero();
+  torque << given, Eigen::VectorXd::Zero(model.dof() - given.size());
+  drives->transmit(dt, torque);
+  return torque;
+}
+
 Robot Robot::load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
                   const RobotSettings& settings) {
   return Robot(RobotModel::read(urdf_path, settings.urdf), world, settings);
@@ -241,18 +255,13 @@ void Robot::drive(double dt, const Eigen::VectorXd& torque) noexcept {
   assert(torque.size() <= dof());
   btMultiBody& robot = multibody();
   Parts& parts = *parts_;
-  const auto joint_torque = [&](int i) -> btScalar& { return robot.getLink(i).m_jointTorque[0]; };
   const bool still_stands = parts.marked && robot.getBaseTorque().x() == parts.base_torque;
-  if (still_stands && parts.drives->is_there()) {
-    for (int i = 0; i < dof(); ++i) joint_torque(i) -= static_cast<btScalar>(parts.applied(i));
-    parts.applied.setZero();
-  }
-  parts.torque << torque, Eigen::VectorXd::Zero(dof() - torque.size());
-  if (parts.drives->is_there()) parts.drives->transmit(dt, parts.torque);
-  for (int i = 0; i < dof(); ++i) {
+  const Eigen::VectorXd& given =
+      parts.drives->is_there() ? parts.behind_drives(dt, torque, still_stands) : torque;
+  for (int i = 0; i < given.size(); ++i) {
     const double applied = still_stands ? parts.applied(i) : 0.0;
-    joint_torque(i) += static_cast<btScalar>(parts.torque(i) - applied);
-    parts.applied(i) = parts.torque(i);
+    parts.joint_torque(i) += static_cast<btScalar>(given(i) - applied);
+    parts.applied(i) = given(i);
   }
   if (!still_stands) robot.addBaseTorque(btVector3(btScalar(mark), 0, 0));
   parts.base_torque = robot.getBaseTorque().x();

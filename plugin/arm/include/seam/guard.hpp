@@ -16,9 +16,9 @@ namespace SEAM_API seam {
 struct GuardSettings {
   PerJoint most_error =
       0.3;  // [rad or m] of a joint from its reference: a hit, or drives that are too weak
-  /// Share of a joint's effort limit that its drive must be asked for besides, unless some drive is at its limit. A joint with
-  /// friction may be far behind, but takes little torque to move; one that is lost takes all there is. 0, or a joint without an effort limit:
-  /// the error alone counts.
+  /// Share of a joint's effort limit that the feedback must ask for besides, unless some drive is at its limit. A joint with friction
+  /// may be far behind, but takes little torque to move; one that is lost takes all there is. 0, or a joint without an effort
+  /// limit: the error alone counts.
   double least_effort = 0.5;
   double longest_dropout =
       0.1;  // [s] without a state that are bridged by the torque of the reference alone
@@ -54,9 +54,11 @@ std::string describe(const Incident& incident, const RobotModel& robot);
 /// Watches over n joints by GuardSettings. Neither allocates nor throws after construction.
 class Guard {
  public:
-  /// @param delay  [s] of the state, for which it may stay the same after a restart
+  /// @param delay      [s] of the state, for which it may stay the same after a restart
+  /// @param stiffness  n [N·m/rad or N/m] of the feedback, for least_effort; none: the error alone counts
   /// @throws Error  a bound is negative or NaN, or there are not as many as joints
-  Guard(const RobotModel& model, const GuardSettings& settings, double delay = 0.0);
+  Guard(const RobotModel& model, const GuardSettings& settings, double delay = 0.0,
+        const Eigen::VectorXd& stiffness = {});
 
   /// Once per tick: whether a state can be used.
   /// @param dt         [s] > 0
@@ -70,10 +72,9 @@ class Guard {
   void restart(const Eigen::VectorXd& q) noexcept;
 
   /// Which joint passes a bound, and with what; the cause is none where none does.
-  /// @param torque   n [N·m or N] that the drives were asked for
-  /// @param limited  a drive could not give that
+  /// @param limited  a drive could not give what it was asked for
   Incident deviation(const Eigen::VectorXd& q, const Eigen::VectorXd& reference,
-                     const Eigen::VectorXd& torque, bool limited) const noexcept;
+                     bool limited) const noexcept;
   /// The same of a position that the joints should have.
   Incident beyond_limits(const Eigen::VectorXd& position) const noexcept;
   /// Moves the end of a motion back to a limit that it would pass; what is beyond one already may stay there.
@@ -84,7 +85,7 @@ class Guard {
   bool moved_beyond(const Eigen::VectorXd& reference) const noexcept;
 
   Eigen::VectorXd most_error_;        // n
-  Eigen::VectorXd least_torque_;      // n, that a deviation needs
+  Eigen::VectorXd lost_error_;        // n, at which the feedback asks for least_effort, too
   Eigen::VectorXd least_, most_;      // n, what the reference may be
   Eigen::VectorXd seen_q_, seen_qd_;  // n, the last state that was new
   Eigen::VectorXd reference_;         // n, then

@@ -68,8 +68,8 @@ struct Joint {
   double effort = 0.0;  // [N·m or N]; likewise
 
   // What stands between drive and body, ≥ 0: see Robot, which simulates it, and ComputedTorque, which makes up for it.
-  double damping = 0.0;   // [N·m·s/rad or N·s/m] b, viscous friction; URDF's <dynamics damping>
-  double friction = 0.0;  // [N·m or N] c, Coulomb friction; URDF's <dynamics friction>
+  double damping = 0.0;        // [N·m·s/rad or N·s/m] b, viscous friction; the URDF's damping
+  double friction = 0.0;       // [N·m or N] c, Coulomb friction; the URDF's friction
   double rotor_inertia = 0.0;  // [kg m² or kg] J as the joint feels it: gear ratio² × the rotor's
   double stiffness =
       std::numeric_limits<double>::infinity();  // [N·m/rad or N/m] k of an elastic joint
@@ -82,6 +82,7 @@ struct Joint {
   double offset = 0.0;      // [rad or m]
 
   bool follows() const { return leader >= 0; }  // a leader
+  /// There is a spring between its motor and its body.
   bool is_elastic() const { return stiffness < std::numeric_limits<double>::infinity(); }
   /// Pose of the body in its parent at q [rad or m].
   Eigen::Isometry3d X_parent_body_at(double q) const;
@@ -128,8 +129,8 @@ struct RobotModel {
   void place_followers(Eigen::Ref<Eigen::VectorXd> q) const noexcept;
   /// Where a robot begins: each joint at 0 or the limit next to it, followers where that has them.
   Eigen::VectorXd neutral() const;
-  /// Inertia that each joint moves there while the others are at rest [kg m² or kg]: the diagonal of M(q).
-  Eigen::VectorXd moved_inertia() const;
+  /// Inertia that each joint moves at q while the others are at rest [kg m² or kg], without rotors: the diagonal of M(q).
+  Eigen::VectorXd moved_inertia(const Eigen::VectorXd& q) const;
 
   /// Reads a URDF tree of revolute, continuous, prismatic and fixed joints.
   ///

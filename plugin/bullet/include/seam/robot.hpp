@@ -29,8 +29,9 @@ struct RobotSettings {
   double hull_tolerance = 2e-3;
   /// Simulate what the model's joints have beside rigid bodies (see Robot::drive). Else it is the app's, or not there.
   bool joint_dynamics = true;
-  /// Which side of an elastic joint the encoders, and so the controllers, see.
-  enum class Encoders { motor, link } encoders = Encoders::motor;
+  /// Which side of an elastic joint is measured.
+  enum class Encoders { motor, link };
+  Encoders encoders = Encoders::motor;  // what controllers see
 };
 
 /// A robot in a Bullet world: the `btMultiBody` made from a URDF, its colliders and shapes, which
