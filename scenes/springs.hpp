@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include <seam/inverse_dynamics.hpp>
-#include <seam/recording.hpp>
 #include <seam/join.hpp>
+#include <seam/recording.hpp>
 #include <seam/robot.hpp>
 
 namespace seam {
