@@ -41,11 +41,14 @@ class Joints {
     if (scene.tool) space_.emplace(scene.robot, scene.sequence, *scene.tool, scene.start);
     springs_.emplace(robot, ticks);
   }
-  void look() { robot_.state(q_, qd_); }
+  void look(Eigen::Index row) {
+    robot_.state(q_, qd_);
+    if (springs_) springs_->look(row);
+  }
   void record(const Controller::Tick& tick, Eigen::Index row, Recording& recording) {
     recording.q.row(row) = q_;
     recording.qd.row(row) = qd_;
-    if (springs_) springs_->look(row, tick.reference);
+    if (springs_) springs_->compare(row, tick.reference);
     if (!recording.in_task_space()) return;
     const ToolError error = space_ ? space_->miss(tick.sequence, q_) : tick.tool_error;
     recording.tool_error_m(row) = error.distance;
@@ -143,7 +146,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
       happen(*event, scene, k * dt, controller.sequencer(), recording.joins);
     for (const auto& object : objects) object->pre_tick(k);
     if (film) film->pre_tick(k);
-    joints.look();
+    joints.look(k);
     world->stepSimulation(dt, 0);
     record(controller.last_tick(), k * dt, k, recording);
     joints.record(controller.last_tick(), k, recording);

@@ -134,11 +134,12 @@ void read_elastic(const YamlEntry& entry, Scene& scene) {
   using Encoders = RobotSettings::Encoders;
   if (const auto encoders = entry.find("encoders"))
     scene.encoders = encoders->choice({"motor", "link"}) == 0 ? Encoders::motor : Encoders::link;
-  for (std::size_t i = 0; i < scene.robot.joints.size(); ++i) {
-    const Joint& joint = scene.simulated.joints[i];
+}
+
+void require_rotors(const YamlEntry& elastic, const Scene& scene) {
+  for (const Joint& joint : scene.simulated.joints)
     if (joint.is_elastic() && joint.rotor_inertia == 0.0)
-      entry.fail("joint \"" + joint.name + "\" needs a rotor_inertia > 0");
-  }
+      elastic.fail("joint \"" + joint.name + "\" needs a rotor_inertia > 0");
 }
 
 // What the controller's model is wrong by, and the arm carries besides.
@@ -228,6 +229,7 @@ std::string named_arm(const std::string& urdf, const std::string& name) {
 void read_reality(const YamlEntry& scene_file, Scene& scene) {
   ModelError error;
   Known known;
+  std::optional<YamlEntry> elastic;
   const std::optional<YamlEntry> arm = arm_file(scene_file, scene);
   const YamlEntry* const files[] = {arm ? &*arm : nullptr, &scene_file};
   for (const YamlEntry* file : files) {
@@ -237,7 +239,10 @@ void read_reality(const YamlEntry& scene_file, Scene& scene) {
     };
     read_joints(*file, "rotor_inertia", &Joint::rotor_inertia, &YamlEntry::not_negative, scene);
     read("friction", [&](const YamlEntry& entry) { read_friction(entry, scene); });
-    read("elastic", [&](const YamlEntry& entry) { read_elastic(entry, scene); });
+    read("elastic", [&](const YamlEntry& entry) {
+      read_elastic(entry, scene);
+      elastic = entry;
+    });
     read("actuator",
          [&](const YamlEntry& entry) { read_actuator(entry, scene.robot, scene.actuator); });
     read("sensors", [&](const YamlEntry& entry) { read_sensor(entry, scene.robot, scene.sensor); });
@@ -247,6 +252,7 @@ void read_reality(const YamlEntry& scene_file, Scene& scene) {
          [&](const YamlEntry& entry) { read_control(entry, scene.robot, scene.control); });
     read("guard", [&](const YamlEntry& entry) { read_guard(entry, scene.robot, scene.guard); });
   }
+  if (elastic) require_rotors(*elastic, scene);
   know(known, scene);
   err(error, scene);
 }

@@ -62,7 +62,7 @@ Springs::Springs(const Robot& robot, int ticks)
   resonance_ = slowest_resonance(robot.model(), dynamics_, q_);
 }
 
-void Springs::look(Eigen::Index tick, const Sample& reference) noexcept {
+void Springs::look(Eigen::Index tick) noexcept {
   robot_.state(q_, qd_);
   robot_.motor_state(theta_, w_);
   for (std::size_t a = 0; a < joints_.size(); ++a) {
@@ -71,6 +71,9 @@ void Springs::look(Eigen::Index tick, const Sample& reference) noexcept {
     beyond_(tick, static_cast<Eigen::Index>(a)) =
         joint.stiffness * (theta_(i) - q_(i)) + joint.spring_damping * (w_(i) - qd_(i));
   }
+}
+
+void Springs::compare(Eigen::Index tick, const Sample& reference) noexcept {
   const Eigen::Index n = reference.position.size();
   q_.head(n) = reference.position;
   qd_.head(n) = reference.velocity;

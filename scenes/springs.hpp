@@ -14,11 +14,13 @@ namespace seam {
 /// Watches the springs of an arm's elastic joints: by how much what they bear swings about what the motion asks of them.
 class Springs {
  public:
-  /// @param robot  stands where the scene begins, sees its motors, and must outlive this
+  /// @param robot  stands where the scene begins, and must outlive this
   Springs(const Robot& robot, int ticks);
 
-  /// Before a tick, with the joints' reference then; joints that it does not have (a liquid's) are at rest.
-  void look(Eigen::Index tick, const Sample& reference) noexcept;
+  /// Before a tick.
+  void look(Eigen::Index tick) noexcept;
+  /// After it, with the joints' reference at its beginning; joints that it does not have (a liquid's) do not accelerate.
+  void compare(Eigen::Index tick, const Sample& reference) noexcept;
   /// Adds the outcomes `ringing_nm`, half of the widest swing of a spring's torque in the 0.2 s after a join, less the parabola that fits
   /// it best there; and `resonance_hz` of the slowest joint, √(k/J + k·W)/2π with its share W of the inverse of M + J (of the
   /// other joints) at the start.

@@ -70,7 +70,7 @@ Eigen::VectorXd one(double value) {
 
 // At a constant acceleration of 10 rad/s², with ticks as they come; what the wheel does is integrated as Bullet does.
 struct Wheel {
-  ComputedTorque law{wheel(), {}};
+  ComputedTorque law{wheel(), {}, one(0.0)};
   double time = 0.0;
   Eigen::VectorXd q = one(0.0), qd = one(0.0), torque = one(0.0);
 
@@ -138,7 +138,7 @@ TEST(ComputedTorque, MakesUpForRotorsAndFriction) {
   model.joints[0].friction = 2.0;
   ControlSettings settings;
   settings.friction_share = 0.7;
-  ComputedTorque law(model, settings);
+  ComputedTorque law(model, settings, one(0.0));
   Eigen::VectorXd torque = one(0.0);
   const Sample now = Wheel::reference(0.001);
   const double next_velocity = (Wheel::reference(0.002).position(0) - now.position(0)) / 1e-3;
@@ -158,7 +158,7 @@ TEST(ComputedTorque, HasGainsPerJoint) {
   ControlSettings settings;
   settings.Kp = Eigen::VectorXd(Eigen::Vector2d(100.0, 900.0));
   settings.Kd = Eigen::VectorXd(Eigen::Vector2d(0.0, 0.0));
-  ComputedTorque law(model, settings);
+  ComputedTorque law(model, settings, Eigen::Vector2d::Zero());
   const Sample rest = Sample::at_rest(Eigen::Vector2d::Zero());
   Eigen::VectorXd torque = Eigen::Vector2d::Zero();
   const Eigen::VectorXd off = Eigen::Vector2d(-1e-3, -1e-3);
@@ -170,7 +170,7 @@ TEST(ComputedTorque, RefusesSettingsThatAreNone) {
   const auto refused = [](const auto& set) {
     ControlSettings settings;
     set(settings);
-    return test::refusal([&] { ComputedTorque(wheel(), settings); });
+    return test::refusal([&] { ComputedTorque(wheel(), settings, one(0.0)); });
   };
   EXPECT_EQ(refused([](ControlSettings& settings) { settings.Kp = -1.0; }),
             "controller: gain Kp: -1.000000, must be >= 0");

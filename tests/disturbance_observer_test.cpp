@@ -71,7 +71,7 @@ TEST(DisturbanceObserver, PassesNoiseOnlyAsTheFeedbackDoes) {
 
 // A wheel whose axle brakes with a torque that nobody told the controller of.
 struct Braked {
-  explicit Braked(double observer) : law(model(), settings(observer)) {}
+  explicit Braked(double observer) : law(model(), settings(observer), one(0.0)) {}
   static RobotModel model() {
     RobotModel wheel;
     wheel.joints.resize(1);

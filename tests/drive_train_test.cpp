@@ -143,8 +143,12 @@ Eigen::MatrixXd inertia_matrix(const InverseDynamics& dynamics, const Eigen::Vec
 }
 
 // (M + J + dt·b)(q̇⁺ − q̇)/dt = torque − h − b∘q̇, with passive joints and a tilted base; with M from the inverse dynamics.
-TEST(DriveTrain, MovesTheArmAsItsEquationHasIt) {
+class DriveTrains : public testing::TestWithParam<std::vector<std::size_t>> {};
+
+TEST_P(DriveTrains, MoveTheArmAsItsEquationHasIt) {
   RobotModel model = pa10_with_drives();
+  for (const std::size_t i : GetParam())
+    model.joints[i].rotor_inertia = model.joints[i].damping = 0;
   add_liquid(model, "tool", Eigen::Isometry3d::Identity(), {});
   RobotSettings tilted;
   tilted.colliders = false;
@@ -177,6 +181,11 @@ TEST(DriveTrain, MovesTheArmAsItsEquationHasIt) {
     EXPECT_LT(((after - qd) / dt - qdd).cwiseAbs().maxCoeff(), 1e-8 * qdd.cwiseAbs().maxCoeff());
   }
 }
+
+// In all joints; in two alone, while the drives of the others push as well.
+INSTANTIATE_TEST_SUITE_P(, DriveTrains,
+                         testing::Values(std::vector<std::size_t>{},
+                                         std::vector<std::size_t>{1, 2, 4, 5, 6}));
 
 // All 3ⁿ ways of sticking and sliding, of which one fits.
 Eigen::VectorXd searched(const Eigen::MatrixXd& A, const Eigen::VectorXd& r,

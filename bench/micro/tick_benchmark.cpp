@@ -121,7 +121,7 @@ Work arm_controller(const Movement& movement, const RobotModel& model = pa10(),
 
 Work law() {
   struct Law {
-    ComputedTorque law{pa10(), {}};
+    ComputedTorque law{pa10(), {}, pa10().neutral()};
     Controller::Tick at;
     Eigen::VectorXd next, torque;
   };

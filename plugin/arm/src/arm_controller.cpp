@@ -77,7 +77,7 @@ ArmController::ArmController(const RobotModel& model, const Sequence& sequence,
       next_(tick_.reference),
       joints_(reference(model, sequence, settings.tool, q)),
       sequencer_(sequence, join, joints_->measured(q, qd)),
-      law_(model, settings.law),
+      law_(model, settings.law, q),
       guard_(model, settings.guard, settings.sensor.delay, stiffness(model, settings.law, q)),
       offset_(model.dof()),
       actuator_(model, settings.actuator),
@@ -254,6 +254,7 @@ void ArmController::stop_here(const Incident& incident) noexcept {
     stop(incident);
   }
   law_.go_on(tick_.reference.velocity);
+  law_.reset_observer();  // of what the arm has hit
 }
 
 void ArmController::brake_from(const Sample& from) noexcept {

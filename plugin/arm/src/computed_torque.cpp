@@ -33,9 +33,10 @@ double checked(const char* what, double value) {
 }
 
 // What the observer may add: see ControlSettings::most_correction.
-Eigen::VectorXd most_correction(const RobotModel& model, double share, const Eigen::VectorXd& Kp) {
+Eigen::VectorXd most_correction(const RobotModel& model, double share, const Eigen::VectorXd& Kp,
+                                const Eigen::VectorXd& posture) {
   const Eigen::VectorXd inertia =
-      model.moved_inertia(model.neutral()) + of_joints(model, &Joint::rotor_inertia);
+      model.moved_inertia(posture) + of_joints(model, &Joint::rotor_inertia);
   Eigen::VectorXd most = share * Kp;
   for (int i = 0; i < model.dof(); ++i) {
     const double effort = model.joints[static_cast<std::size_t>(i)].effort;
@@ -62,7 +63,8 @@ TickGains::TickGains(double Kp_in_time, double Kd_in_time, double dt) noexcept {
   }
 }
 
-ComputedTorque::ComputedTorque(const RobotModel& model, const ControlSettings& settings)
+ComputedTorque::ComputedTorque(const RobotModel& model, const ControlSettings& settings,
+                               const Eigen::VectorXd& posture)
     : dynamics_(model),
       reference_(settings.reference),
       dt_(not_yet),
@@ -76,9 +78,10 @@ ComputedTorque::ComputedTorque(const RobotModel& model, const ControlSettings& s
       viscous_(checked("friction_share", settings.friction_share) *
                of_joints(model, &Joint::damping)),
       coulomb_(settings.friction_share * of_joints(model, &Joint::friction)),
-      observer_(settings.observer,
-                most_correction(model, checked("most_correction", settings.most_correction),
-                                not_negative("controller: gain Kp", settings.Kp, model.dof()))),
+      observer_(
+          settings.observer,
+          most_correction(model, checked("most_correction", settings.most_correction),
+                          not_negative("controller: gain Kp", settings.Kp, model.dof()), posture)),
       Kp_in_time_(settings.Kp.each(model.dof())),
       Kd_in_time_(not_negative("controller: gain Kd", settings.Kd, model.dof())) {
   has_drives_ = !(rotors_.isZero(0.0) && viscous_.isZero(0.0) && coulomb_.isZero(0.0));

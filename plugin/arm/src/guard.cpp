@@ -116,7 +116,8 @@ bool Guard::moved_beyond(const Eigen::VectorXd& reference) const noexcept {
   const bool rests = seen_qd_.lpNorm<Eigen::Infinity>() < at_rest;
   for (Eigen::Index i = 0; i < reference.size(); ++i)
     if (std::abs(reference(i) - reference_(i)) >
-        std::max(settings_.frozen_beyond, rests ? most_error_(i) : 0.0))
+        std::max(settings_.frozen_beyond,
+                 rests && std::isfinite(most_error_(i)) ? most_error_(i) : 0.0))
       return true;
   return false;
 }

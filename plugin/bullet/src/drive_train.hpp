@@ -23,20 +23,24 @@ namespace seam {
 ///     q̇⁺ = q̇ + dt·q̈₀ + dt·W·t
 /// where q̈₀ is the acceleration without t, and W = M⁻¹ of the joints that have any of it. Both come from Bullet's own articulated-body
 /// algorithm, so that passive joints, forces on links and whatever else acts are in them. Friction is implicit: it is stable at
-/// any tick, and a joint sticks. γ is 0, which keeps a spring's energy, unless k·dt² passes half of what such a step is stable
-/// for, and leads to ½, with which it is stable at any k.
+/// any tick, and a joint sticks. γ = ½·max(0, 1 − κ/k) with κ = 2/(dt²(1/J + Σⱼ|Wᵢⱼ|)): 0, with which a spring keeps its energy,
+/// while the tick resolves it, and up to ½, with which it is stable at any k.
 class DriveTrain {
  public:
   /// @throws Error  a value is negative or not finite (a stiffness: not > 0), an elastic joint has no rotor
   DriveTrain(const RobotModel& model, btMultiBody& multibody);
 
-  bool is_there() const noexcept { return !joints_.empty(); }  // some joint has any of it
+  DriveTrain(const DriveTrain&) = delete;
+  DriveTrain& operator=(const DriveTrain&) = delete;
+
+  bool is_there() const noexcept { return !joints_.empty(); }          // some joint has any of it
+  const std::vector<int>& joints() const noexcept { return joints_; }  // that have
   /// Puts the drives to the joints' state, and springs to where they bear `torque` (n).
   void reset(const Eigen::VectorXd& torque);
   /// Replaces the state of joints that are elastic by that of their drives.
   void state_of_drives(Eigen::Ref<Eigen::VectorXd> q,
                        Eigen::Ref<Eigen::VectorXd> qd) const noexcept;
-  /// One tick of dt. The joint torques that stand in the multibody are all others than the drives'.
+  /// One tick of dt. The joint torques that stand in the multibody are all others than those of the drives of joints().
   /// @param torque  n [N·m or N] of the drives; in those joints that have any of it replaced by what reaches the bodies
   void transmit(double dt, Eigen::VectorXd& torque) noexcept;
 

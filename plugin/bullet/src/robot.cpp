@@ -25,12 +25,6 @@ constexpr int base_dof =
 constexpr double mark =
     0.1234567890123;  // [N·m] on the base, which moves nothing: see Robot::drive
 
-// What is simulated of a model's joints.
-DriveTrain drive_train(const RobotModel& model, btMultiBody& multibody, bool simulated) {
-  if (simulated) return {model, multibody};
-  return {RobotModel(), multibody};
-}
-
 // Bullet takes an inertia below its precision's for none, and does not move the joint.
 void warn_of_small_inertia(RobotModel& model) {
   const Eigen::VectorXd moved = model.moved_inertia(model.neutral());
@@ -66,9 +60,8 @@ struct Robot::Parts {
   void add_to_world();
   void place_colliders();
   void rest_drives(const Eigen::Vector3d& gravity);
-  btScalar& joint_torque(int joint) { return multibody->getLink(joint).m_jointTorque[0]; }
-  const Eigen::VectorXd& behind_drives(double dt, const Eigen::VectorXd& given,
-                                       bool still_stands) noexcept;
+  void give(int joint, double given);
+  void transmit(double dt, const Eigen::VectorXd& given) noexcept;
 
   RobotModel model;
   btMultiBodyDynamicsWorld& world;
@@ -109,8 +102,8 @@ Robot::Parts::Parts(RobotModel robot_model, btMultiBodyDynamicsWorld& in_world,
     }
     if (settings.self_collision) find_what_never_meets();
   }
+  drives.emplace(settings.joint_dynamics ? model : RobotModel(), *multibody);
   add_to_world();
-  drives.emplace(drive_train(model, *multibody, settings.joint_dynamics));
 }
 
 Robot::Parts::~Parts() {
@@ -186,15 +179,19 @@ void Robot::Parts::rest_drives(const Eigen::Vector3d& gravity) {
   drives->reset(holding);
 }
 
-// What the drives' torques become on their way to the bodies. What stands of ours is taken back first.
-const Eigen::VectorXd& Robot::Parts::behind_drives(double dt, const Eigen::VectorXd& given,
-                                                   bool still_stands) noexcept {
-  if (still_stands)
-    for (int i = 0; i < model.dof(); ++i) joint_torque(i) -= static_cast<btScalar>(applied(i));
-  applied.setZero();
+// What a drive gives its joint, instead of what stands of it.
+void Robot::Parts::give(int joint, double given) {
+  multibody->getLink(joint).m_jointTorque[0] += static_cast<btScalar>(given - applied(joint));
+  applied(joint) = given;
+}
+
+// All other torques stand in the multibody when those of the joints with rotors, friction or springs are found.
+void Robot::Parts::transmit(double dt, const Eigen::VectorXd& given) noexcept {
   torque << given, Eigen::VectorXd::Zero(model.dof() - given.size());
+  for (int i = 0; i < model.dof(); ++i) give(i, torque(i));
+  for (const int i : drives->joints()) give(i, 0.0);
   drives->transmit(dt, torque);
-  return torque;
+  for (const int i : drives->joints()) give(i, torque(i));
 }
 
 Robot Robot::load(const std::string& urdf_path, btMultiBodyDynamicsWorld& world,
@@ -256,13 +253,11 @@ void Robot::drive(double dt, const Eigen::VectorXd& torque) noexcept {
   btMultiBody& robot = multibody();
   Parts& parts = *parts_;
   const bool still_stands = parts.marked && robot.getBaseTorque().x() == parts.base_torque;
-  const Eigen::VectorXd& given =
-      parts.drives->is_there() ? parts.behind_drives(dt, torque, still_stands) : torque;
-  for (int i = 0; i < given.size(); ++i) {
-    const double applied = still_stands ? parts.applied(i) : 0.0;
-    parts.joint_torque(i) += static_cast<btScalar>(given(i) - applied);
-    parts.applied(i) = given(i);
-  }
+  if (!still_stands) parts.applied.setZero();
+  if (parts.drives->is_there())
+    parts.transmit(dt, torque);
+  else
+    for (int i = 0; i < torque.size(); ++i) parts.give(i, torque(i));
   if (!still_stands) robot.addBaseTorque(btVector3(btScalar(mark), 0, 0));
   parts.base_torque = robot.getBaseTorque().x();
   parts.marked = true;

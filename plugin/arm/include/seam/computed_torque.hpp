@@ -33,8 +33,8 @@ struct ControlSettings {
   /// wants a good sensor. On the published PA-10 60 is right up to σ = 0.003 rad/s; at 0.01 rad/s the drives come to their rate limit, and 20
   /// tracks better. Drives that lag want ω below 0.3 / lag.
   double observer = 0.0;
-  /// Share of a joint's effort limit that the observer may use up, reckoned with the inertia that the joint moves in the neutral
-  /// posture; in a joint without limit, of what Kp makes of 1 rad or m.
+  /// Share of a joint's effort limit that the observer may use up, reckoned with the inertia that the joint moves where the
+  /// controller is made; in a joint without limit, of what Kp makes of 1 rad or m.
   double most_correction = 0.5;
 };
 
@@ -53,7 +53,7 @@ struct TickGains {
 /// Computed torque: inverse dynamics (ID) at an acceleration that follows a joint reference, and what the joints' rotors J and friction
 /// b, c of the model add. (q, q̇) in, torque out; it knows no btMultiBody.
 ///     torque = ID(q, q̇, q̈ₖ + ê) + J∘(q̈ₖ + ê) + s·(b∘q̇* + c∘tanh(q̇*/v₀))
-/// Friction goes by the velocity that the reference has at the tick's end, q̇*, not by the measured one: so it neither chatters
+/// Friction goes by the velocity that the reference has at the tick's end, q̇* (plain: at its beginning), not by the measured one: so it neither chatters
 /// at rest nor steps where the motion turns. ê is the disturbance observer's. With the gains of the tick
 ///     matched  q̇*ₖ₊₁ = (q_ref[k+1] − q_ref[k])/dt
 ///              q̈ₖ = (q̇*ₖ₊₁ − q̇*ₖ)/dt + Kd'(q̇*ₖ − q̇ₖ) + Kp'(q_ref[k] − qₖ)
@@ -66,7 +66,9 @@ class ComputedTorque {
  public:
   /// @throws Error  gains that are negative, not finite, or not as many as joints; a share, velocity or bandwidth that is negative
   ///                or not finite; and what InverseDynamics refuses
-  ComputedTorque(const RobotModel& model, const ControlSettings& settings);
+  /// @param posture  n [rad or m] in which the observer's bound is reckoned
+  ComputedTorque(const RobotModel& model, const ControlSettings& settings,
+                 const Eigen::VectorXd& posture);
 
   /// The velocity [rad/s] with which the reference begins, n values.
   void start(const Eigen::VectorXd& velocity) noexcept;
@@ -76,6 +78,8 @@ class ComputedTorque {
   void go_on(const Eigen::VectorXd& velocity) noexcept { matched_velocity_ = velocity; }
   /// What the observer has found is kept over the tick that ends now, which says nothing: see DisturbanceObserver::hold.
   void hold_observer() noexcept { observer_.hold(); }
+  /// It is let go of, and the observer begins anew.
+  void reset_observer() noexcept { observer_.reset(); }
   const DisturbanceObserver& observer() const noexcept { return observer_; }  // to look at
   /// Gravity [m/s²] in the frame of the robot's root link.
   void set_gravity(const Eigen::Vector3d& gravity) noexcept { dynamics_.set_gravity(gravity); }

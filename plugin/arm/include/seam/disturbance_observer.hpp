@@ -14,8 +14,7 @@ namespace SEAM_API seam {
 /// A torque d that no model knows of leaves e = (M + J)⁻¹d, so that ê in the acceleration of computed torque (see ComputedTorque)
 /// is the torque (M + J)ê = d̂, after 1/ω: the disturbance observer of K. Ohnishi, M. Shibata and T. Murakami (IEEE/ASME Trans.
 /// Mechatronics 1, 1996), which needs no second call of the inverse dynamics in this form. White noise of standard deviation σ in
-/// the measured velocity makes one of about ω·σ in ê, as the feedback makes one of Kd·σ: no difference of velocities is
-/// left of it.
+/// the measured velocity makes one of about ω·σ in ê, as the feedback makes one of Kd·σ.
 /// Neither allocates nor throws after construction.
 class DisturbanceObserver {
  public:

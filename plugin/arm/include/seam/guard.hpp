@@ -23,7 +23,7 @@ struct GuardSettings {
   double longest_dropout =
       0.1;  // [s] without a state that are bridged by the torque of the reference alone
   /// [rad or m] by which the reference moves while the state stays the same to the bit: then it is none. A state of rest (less than
-  /// 1e-9 rad/s or m/s) is one until the reference is most_error away: friction may hold the arm.
+  /// 1e-9 rad/s or m/s) is one until the reference has moved by most_error, if that is finite: friction may hold the arm.
   double frozen_beyond = 0.01;
   double beyond_limits =
       0.01;  // share of a joint's range by which the reference may pass its limits

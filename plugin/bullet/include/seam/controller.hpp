@@ -34,7 +34,7 @@ struct ControllerSettings : ArmControllerSettings {
 /// Once per Bullet tick, before the forces are used, `pre_tick(dt)` reads the state, advances the
 /// sequence by dt, and adds the computed torque to the joints. `Plugin` makes those calls; an app
 /// that owns its tick callback makes them itself. It is right for any number of substeps, and
-/// leaves torques that the app adds alone (see Robot::drive, which it calls). One controller at a time for a robot, which is
+/// does not touch torques that the app adds (see Robot::drive, which it calls). One controller at a time for a robot, which is
 /// borrowed and must outlive it.
 class Controller {
  public:
