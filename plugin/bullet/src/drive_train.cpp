@@ -43,8 +43,8 @@ std::vector<int> with_any(const RobotModel& model) {
 }  // namespace
 
 DriveTrain::DriveTrain(const RobotModel& model, btMultiBody& multibody)
-    : multibody_(multibody), joints_(with_any(model)), stick_slip_(0) {
-  const auto m = static_cast<Eigen::Index>(joints_.size());
+    : multibody_(multibody), joints_(with_any(model)), factors_(size()), stick_slip_(size()) {
+  const Eigen::Index m = size();
   if (m == 0) return;
   for (Eigen::VectorXd* values :
        {&J_, &b_, &c_, &k_, &d_, &theta_, &w_, &qd_, &qdd_, &spring_, &kappa_, &free_, &r_, &t_})
@@ -59,8 +59,6 @@ DriveTrain::DriveTrain(const RobotModel& model, btMultiBody& multibody)
     k_(a) = joint.stiffness;
     d_(a) = joint.spring_damping;
   }
-  factors_ = Eigen::LLT<Eigen::MatrixXd>(m);
-  stick_slip_ = StickSlip(m);
   force_.resize(static_cast<std::size_t>(base_dof + model.dof()));
   response_ = force_;
   ask_bullet();  // which makes room in the scratch memory

@@ -45,6 +45,7 @@ class DriveTrain {
   void transmit(double dt, Eigen::VectorXd& torque) noexcept;
 
  private:
+  Eigen::Index size() const noexcept { return static_cast<Eigen::Index>(joints_.size()); }  // m
   void ask_bullet() noexcept;
   void couple(double dt) noexcept;
 
