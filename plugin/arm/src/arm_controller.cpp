@@ -1,6 +1,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "driven_inertia.hpp"
 #include "settings_check.hpp"
 #include "state_check.hpp"
 #include <seam/arm_controller.hpp>
@@ -55,10 +56,7 @@ ArmController::Tick tick_at(const RobotModel& model, const Eigen::VectorXd& q,
 // Of the feedback, in the posture where the controller is made.
 Eigen::VectorXd stiffness(const RobotModel& model, const ControlSettings& law,
                           const Eigen::VectorXd& q) {
-  Eigen::VectorXd inertia = model.moved_inertia(q);
-  for (int i = 0; i < model.dof(); ++i)
-    inertia(i) += model.joints[static_cast<std::size_t>(i)].rotor_inertia;
-  return inertia.cwiseProduct(law.Kp.each(model.dof()));
+  return driven_inertia(model, q).cwiseProduct(law.Kp.each(model.dof()));
 }
 
 // All but the jerk, which the sequencer does not keep up to date.

@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "driven_inertia.hpp"
 #include "settings_check.hpp"
 #include "text.hpp"
 #include <seam/computed_torque.hpp>
@@ -35,8 +36,7 @@ double checked(const char* what, double value) {
 // What the observer may add: see ControlSettings::most_correction.
 Eigen::VectorXd most_correction(const RobotModel& model, double share, const Eigen::VectorXd& Kp,
                                 const Eigen::VectorXd& posture) {
-  const Eigen::VectorXd inertia =
-      model.moved_inertia(posture) + of_joints(model, &Joint::rotor_inertia);
+  const Eigen::VectorXd inertia = driven_inertia(model, posture);
   Eigen::VectorXd most = share * Kp;
   for (int i = 0; i < model.dof(); ++i) {
     const double effort = model.joints[static_cast<std::size_t>(i)].effort;
