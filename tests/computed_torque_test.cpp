@@ -4,10 +4,15 @@
 
 #include "tests/allocation_guard.hpp"
 #include "tests/support.hpp"
+#include "tests/wheel.hpp"
 #include <seam/computed_torque.hpp>
 
 namespace seam {
 namespace {
+
+using test::inertia;
+using test::one;
+using test::wheel;
 
 struct Case {
   double Kp, Kd;
@@ -50,22 +55,6 @@ TEST(TickGains, AreFiniteHoweverStiff) {
       EXPECT_TRUE(std::isfinite(gains(c, dt).Kp)) << c.Kp << " " << c.Kd;
       EXPECT_TRUE(std::isfinite(gains(c, dt).Kd)) << c.Kp << " " << c.Kd;
     }
-}
-
-constexpr double inertia = 0.2;  // [kg m²]
-
-// A wheel about a vertical axis: torque is inertia times acceleration.
-RobotModel wheel() {
-  RobotModel model;
-  model.joints.resize(1);
-  model.bodies.resize(1);
-  model.bodies[0].inertial.mass = 1.0;
-  model.bodies[0].inertial.inertia = Eigen::Vector3d(0.15, 0.15, inertia).asDiagonal();
-  return model;
-}
-
-Eigen::VectorXd one(double value) {
-  return Eigen::VectorXd::Constant(1, value);
 }
 
 // At a constant acceleration of 10 rad/s², with ticks as they come; what the wheel does is integrated as Bullet does.

@@ -5,6 +5,7 @@
 
 #include "tests/allocation_guard.hpp"
 #include "tests/support.hpp"
+#include "tests/wheel.hpp"
 #include <seam/arm.hpp>
 #include <seam/disturbance_observer.hpp>
 
@@ -13,11 +14,6 @@ namespace seam::test {
 namespace {
 
 constexpr double dt = 1e-3;
-constexpr double inertia = 0.2;  // [kg m²]
-
-Eigen::VectorXd one(double value) {
-  return Eigen::VectorXd::Constant(1, value);
-}
 
 // Of a constant disturbance, 1 − exp(−ωt) is found after t, whatever the tick.
 TEST(DisturbanceObserver, FindsADisturbanceWithItsBandwidth) {
@@ -71,15 +67,7 @@ TEST(DisturbanceObserver, PassesNoiseOnlyAsTheFeedbackDoes) {
 
 // A wheel whose axle brakes with a torque that nobody told the controller of.
 struct Braked {
-  explicit Braked(double observer) : law(model(), settings(observer), one(0.0)) {}
-  static RobotModel model() {
-    RobotModel wheel;
-    wheel.joints.resize(1);
-    wheel.bodies.resize(1);
-    wheel.bodies[0].inertial.mass = 1.0;
-    wheel.bodies[0].inertial.inertia = Eigen::Vector3d(0.15, 0.15, inertia).asDiagonal();
-    return wheel;
-  }
+  explicit Braked(double observer) : law(wheel(), settings(observer), one(0.0)) {}
   static ControlSettings settings(double observer) {
     ControlSettings settings;
     settings.observer = observer;
@@ -107,11 +95,7 @@ TEST(DisturbanceObserver, TakesAwayWhatTheFeedbackLeaves) {
 
 // Nothing is learned while the drive is at its limit: what was found before stays.
 TEST(DisturbanceObserver, DoesNotWindUpWhereADriveIsLimited) {
-  RobotModel model = Braked::model();
-  model.joints[0].name = "turn";
-  model.joints[0].type = Joint::Type::continuous;
-  model.joints[0].lower = -INFINITY;
-  model.joints[0].upper = INFINITY;
+  RobotModel model = wheel();
   model.joints[0].effort = 1.0;
   ArmControllerSettings settings;
   settings.law.observer = 60.0;

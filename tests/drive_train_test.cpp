@@ -15,6 +15,7 @@
 #include "tests/allocation_guard.hpp"
 #include "tests/drive_step.hpp"
 #include "tests/support.hpp"
+#include "tests/wheel.hpp"
 #include <seam/inverse_dynamics.hpp>
 #include <seam/robot.hpp>
 
@@ -25,29 +26,6 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double dt = 1e-3;
-constexpr double inertia = 0.2;  // [kg m²]
-
-Eigen::VectorXd one(double value) {
-  return Eigen::VectorXd::Constant(1, value);
-}
-
-// A wheel that turns about a vertical axis.
-RobotModel wheel() {
-  RobotModel model;
-  model.name = "wheel";
-  model.joints.resize(1);
-  model.bodies.resize(1);
-  model.joints[0].name = "turn";
-  model.joints[0].type = Joint::Type::continuous;
-  model.joints[0].lower = -INFINITY;
-  model.joints[0].upper = INFINITY;
-  model.joints[0].speed = model.joints[0].effort = INFINITY;
-  model.bodies[0].link = "wheel";
-  model.bodies[0].inertial.mass = 1.0;
-  model.bodies[0].inertial.inertia = Eigen::Vector3d(0.15, 0.15, inertia).asDiagonal();
-  return model;
-}
-
 // A wheel behind a drive.
 struct Driven {
   explicit Driven(const Joint& joint, double speed = 0.0) : robot(behind(joint), *world) {

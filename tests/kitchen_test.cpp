@@ -6,16 +6,15 @@
 
 #include "bench/compare.hpp"
 #include "scenes/play.hpp"
+#include "tests/own_scene.hpp"
 #include "tests/refusals.hpp"
 
 namespace seam {
 namespace {
 
+using test::outcome;
+using test::own_scene;
 using testing::HasSubstr;
-
-Scene scene(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return Scene::read(std::string(SEAM_SCENES) + "/" + name + ".yaml", overrides);
-}
 
 // One of the project's scenes in which a text is replaced by another.
 Scene scene_with(const std::string& name, const std::string& from, const std::string& to) {
@@ -30,18 +29,11 @@ std::vector<seam::Run> compared(const Scene& scene) {
   return compare({scene}, methods, 2, quiet).front().runs;
 }
 
-double outcome(const Recording& recording, const std::string& name) {
-  for (const Outcome& outcome : recording.outcomes)
-    if (outcome.name == name) return outcome.value;
-  ADD_FAILURE() << "no outcome " << name;
-  return 0.0;
-}
-
 class KitchenScene : public testing::TestWithParam<const char*> {};
 
 // At every join and change of goal; the order where nothing but the arm moves.
 TEST_P(KitchenScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
-  const Scene played = scene(GetParam());
+  const Scene played = own_scene(GetParam());
   const std::vector<seam::Run> runs = compared(played);
   const bool alone = !played.liquid && !played.pouring;
   const auto& dmp2 = runs[0].metrics.joins;
@@ -69,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(, KitchenScene, testing::Values("carrying", "wiping"));
 
 // Two changes a tick apart from a camera's 30 a second leave jumps of dmp2 that vanish by chance: the worst counts.
 TEST(Catching, TorqueStepsWithDmp2AtTheGoalsAndNotWithTheOthers) {
-  const std::vector<seam::Run> runs = compared(scene("catching"));
+  const std::vector<seam::Run> runs = compared(own_scene("catching"));
   EXPECT_EQ(runs[0].metrics.joins.size(), 32U);
   EXPECT_GT(runs[0].metrics.torque_jump_nm, 3.0);
   for (const seam::Run& run : {runs[1], runs[2], runs[3]}) {
@@ -80,7 +72,7 @@ TEST(Catching, TorqueStepsWithDmp2AtTheGoalsAndNotWithTheOthers) {
 }
 
 TEST(Carrying, SpillsWithDmp2AndNotWithTheOthers) {
-  const Scene carrying = scene("carrying");
+  const Scene carrying = own_scene("carrying");
   for (const Join method : all_joins) {
     const Recording recording = play(carrying, method, carrying.dt);
     const double spilled = outcome(recording, "spilled_share");
@@ -95,12 +87,12 @@ TEST(Carrying, IsTrackedExactlyWithItsLiquidFrozen) {
   const Recording recording = play(frozen, Join::dmp3, frozen.dt);
   EXPECT_LT(measure(recording).tool_tracking_max_m, 1e-6);
   // And the liquid that the controller does not know of is felt.
-  const Scene moving = scene("carrying");
+  const Scene moving = own_scene("carrying");
   EXPECT_GT(measure(play(moving, Join::dmp3, moving.dt)).tool_tracking_max_m, 1e-5);
 }
 
 TEST(Pouring, TorqueStepsWithDmp2AndNotWithTheOthers) {
-  Scene pouring = scene("pouring");
+  Scene pouring = own_scene("pouring");
   pouring.pouring->places.resize(1);
   const std::vector<seam::Run> runs = compared(pouring);
   for (const seam::Run& run : {runs[1], runs[2], runs[3]})
@@ -110,7 +102,7 @@ TEST(Pouring, TorqueStepsWithDmp2AndNotWithTheOthers) {
 }
 
 TEST(Pouring, MissesAGlassThatStandsElsewhere) {
-  Scene pouring = scene("pouring");
+  Scene pouring = own_scene("pouring");
   ASSERT_EQ(pouring.places(), 5U);
   pouring.pouring->places.resize(2);
   pouring.pouring->glass_at.x() += 0.15;
@@ -123,7 +115,7 @@ TEST(Pouring, IsTrackedExactlyWithItsGrainsFrozen) {
 }
 
 TEST(Pouring, GivesTheSameBitsTwice) {
-  Scene pouring = scene("pouring");
+  Scene pouring = own_scene("pouring");
   pouring.pouring->places.resize(1);
   const Recording first = play(pouring, Join::dmp2a, pouring.dt);
   const Recording second = play(pouring, Join::dmp2a, pouring.dt);
@@ -148,8 +140,8 @@ TEST(Scene, HasTheActuatorThatItNames) {
 
 // Twice as fast a sequence is at the same place at half the time.
 TEST(Scene, HastenedIsOnTheSamePath) {
-  const Scene slow = scene("carrying");
-  const Scene fast = scene("carrying", {"speed=2"});
+  const Scene slow = own_scene("carrying");
+  const Scene fast = own_scene("carrying", {"speed=2"});
   const Recording before = play(slow, Join::dmp2, 1e-3);
   const Recording after = play(fast, Join::dmp2, 5e-4);
   ASSERT_EQ(before.ticks(), after.ticks());
@@ -158,7 +150,7 @@ TEST(Scene, HastenedIsOnTheSamePath) {
 }
 
 TEST(Camera, SeesAGoalThatMovesWithNoise) {
-  const Scene catching = scene("catching");
+  const Scene catching = own_scene("catching");
   ASSERT_EQ(catching.events.size(), 31U);
   double square = 0.0;
   for (const Event& event : catching.events) {
@@ -169,7 +161,7 @@ TEST(Camera, SeesAGoalThatMovesWithNoise) {
     square += noise.squaredNorm() / 93.0;
   }
   EXPECT_NEAR(std::sqrt(square), 0.002, 0.0004);
-  EXPECT_EQ(scene("catching").events[7].goal, catching.events[7].goal);
+  EXPECT_EQ(own_scene("catching").events[7].goal, catching.events[7].goal);
   EXPECT_NE(scene_with("catching", "seed: 1", "seed: 2").events[7].goal, catching.events[7].goal);
 }
 

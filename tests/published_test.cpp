@@ -4,29 +4,21 @@
 
 #include "bench/compare.hpp"
 #include "scenes/play.hpp"
+#include "tests/own_scene.hpp"
 #include "tests/refusals.hpp"
 
 namespace seam {
 namespace {
 
+using test::outcome;
+using test::own_scene;
 using testing::HasSubstr;
-
-Scene scene(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return Scene::read(std::string(SEAM_SCENES) + "/" + name + ".yaml", overrides);
-}
-
-double outcome(const Recording& recording, const std::string& name) {
-  for (const Outcome& outcome : recording.outcomes)
-    if (outcome.name == name) return outcome.value;
-  ADD_FAILURE() << "no outcome " << name;
-  return 0.0;
-}
 
 class Published : public testing::TestWithParam<const char*> {};
 
 // Masses 5 % off, 70 % of the friction known, drives that lag by 2 ms.
 TEST_P(Published, PlaysToTheEndAndIsTracked) {
-  Scene played = scene(GetParam(), {"arm=published"});
+  Scene played = own_scene(GetParam(), {"arm=published"});
   if (played.pouring) played.pouring->places.resize(1);
   const std::vector<Join> methods(all_joins.begin(), all_joins.end());
   const auto quiet = [](int, int, const std::string&) {};
@@ -56,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(, Published,
                          [](const auto& of) { return std::string(of.param); });
 
 TEST(PublishedCarrying, SpillsWithDmp2AndNotWithTheOthers) {
-  const Scene carrying = scene("carrying", {"arm=published"});
+  const Scene carrying = own_scene("carrying", {"arm=published"});
   for (const Join method : all_joins)
     EXPECT_EQ(outcome(play(carrying, method, carrying.dt), "spilled_share") > 0.0,
               method == Join::dmp2)
@@ -68,23 +60,23 @@ TEST(Arm, GoesOnWithFrictionThatItDoesNotKnow) {
   for (const char* friction :
        {"friction.coulomb=1", "friction.viscous=2",
         "friction.viscous={S1: 10, S2: 10, S3: 5, E1: 5, E2: 2, W1: 2, W2: 2}"}) {
-    const Scene wiping = scene("wiping", {friction});
+    const Scene wiping = own_scene("wiping", {friction});
     EXPECT_EQ(play(wiping, Join::dmp3, wiping.dt).incident, "") << friction;
   }
 }
 
 // The published friction and rotors, all known: what is left is the sign of Coulomb's.
 TEST(Arm, IsTrackedExactlyIfAllIsKnown) {
-  const Scene known = scene("line", {"rotor_inertia={S1: 0.75, S2: 0.75, E1: 0.2125}",
-                                     "friction.viscous=10", "known={friction: 1, rotors: 1}"});
+  const Scene known = own_scene("line", {"rotor_inertia={S1: 0.75, S2: 0.75, E1: 0.2125}",
+                                         "friction.viscous=10", "known={friction: 1, rotors: 1}"});
   EXPECT_LT(measure(play(known, Join::dmp3, known.dt)).tracking_max_rad, 1e-9);
-  const Scene unknown = scene("line", {"rotor_inertia={S1: 0.75, S2: 0.75, E1: 0.2125}"});
+  const Scene unknown = own_scene("line", {"rotor_inertia={S1: 0.75, S2: 0.75, E1: 0.2125}"});
   EXPECT_GT(measure(play(unknown, Join::dmp3, unknown.dt)).tracking_max_rad, 1e-3);
 }
 
 // An observer on an ideal arm finds rounding.
 TEST(Arm, IsTrackedAsWellWithAnObserverThatFindsNothing) {
-  const Scene observed = scene("wiping", {"control.observer=60"});
+  const Scene observed = own_scene("wiping", {"control.observer=60"});
   EXPECT_LT(measure(play(observed, Join::dmp3, observed.dt)).tool_tracking_max_m, 1e-9);
 }
 
