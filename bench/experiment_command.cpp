@@ -12,6 +12,7 @@
 #include "bench/options.hpp"
 #include "bench/progress.hpp"
 #include "bench/results_folder.hpp"
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 
 namespace seam {

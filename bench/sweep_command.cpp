@@ -10,6 +10,7 @@
 #include "bench/options.hpp"
 #include "bench/progress.hpp"
 #include "bench/sweep.hpp"
+#include "scenes/own_folders.hpp"
 #include <seam/error.hpp>
 
 namespace seam {

@@ -194,7 +194,8 @@ TEST(RolloutCommand, NeedsADurationWhereNothingEndsTheSequence) {
       "rollout " + path + " --method dmp3 --dt 0.01 -o " + kitchen.path("out.csv");
   const Outcome endless = run(call);
   EXPECT_EQ(endless.status, 2);
-  EXPECT_THAT(endless.output, HasSubstr("task.yaml: primitive 1 has not handed over after 600 s"));
+  EXPECT_THAT(endless.output,
+              HasSubstr("task.yaml: rollout: primitive 1 has not handed over after 600 s"));
   EXPECT_FALSE(std::filesystem::exists(kitchen.path("out.csv")));
   ASSERT_EQ(run(call + " --duration 0.5").status, 0);
   EXPECT_EQ(Table::read(kitchen.path("out.csv")).values.rows(), 51);
@@ -208,7 +209,7 @@ TEST(RolloutCommand, RefusesMoreRowsThanMemoryHolds) {
     const Outcome outcome = run(call + options);
     EXPECT_EQ(outcome.status, 2) << options;
     EXPECT_THAT(outcome.output,
-                AllOf(testing::StartsWith("seam: --dt: 1e-0"),
+                AllOf(HasSubstr("task.yaml: rollout: dt 1e-0"),
                       HasSubstr(" s gives more than 2e+06 rows, must be larger\n")));
   }
   EXPECT_FALSE(std::filesystem::exists(kitchen.path("out.csv")));

@@ -282,6 +282,7 @@ double jump_order(double at_dt, double at_half_dt) {
 RunMetrics measure(const Recording& recording, const Companions& companions,
                    const MetricSettings& settings) {
   require_good(settings);
+  recording.validate();
   if (recording.ticks() < 2) throw Error(recording.source, "fewer than 2 ticks");
   RunMetrics metrics;
   metrics.joins = measure_joins(recording, settings);

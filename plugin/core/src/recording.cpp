@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "shown.hpp"
+#include "tool_coordinates.hpp"
 #include <seam/error.hpp>
 #include <seam/recording.hpp>
 #include <seam/table.hpp>
@@ -133,10 +134,6 @@ Eigen::VectorXi whole_numbers(const Eigen::VectorXd& column, const std::string& 
   return column.cast<int>();
 }
 
-bool are_a_tools(const Names& names) {
-  return names == Names{"x", "y", "z"} || names == Names{"x", "y", "z", "rx", "ry", "rz"};
-}
-
 // Those that have a state or a torque, else those that have a reference. Other references are of a tool's coordinates.
 void name_joints(const Reader& reader, const std::string& path, Recording& recording) {
   recording.joints = reader.names({"torque.", "q.", "qd."});
@@ -152,8 +149,7 @@ void name_joints(const Reader& reader, const std::string& path, Recording& recor
     throw Error(path + ":1", "needs columns torque.<joint> [N·m], or others of a recording");
   recording.effort.setConstant(static_cast<Eigen::Index>(recording.joints.size()),
                                std::numeric_limits<double>::quiet_NaN());
-  for (const std::string& name : recording.joints)
-    recording.slides.push_back(contains({"x", "y", "z"}, name));
+  for (const std::string& name : recording.joints) recording.slides.push_back(is_linear(name));
 }
 
 void take_joints(Reader& reader, Recording& recording) {
@@ -195,7 +191,33 @@ Recording Recording::read(const std::string& path) {
   return recording;
 }
 
+void Recording::validate() const {
+  const auto require = [&](const std::string& name, const auto& values, Eigen::Index columns) {
+    if (values.size() == 0 && (values.rows() == 0 || columns == 0 || values.cols() == 0)) return;
+    if (values.rows() != time.size() || values.cols() != columns)
+      throw Error(source, name + " is " + std::to_string(values.rows()) + " x " +
+                              std::to_string(values.cols()) + ", must be " +
+                              std::to_string(time.size()) + " x " + std::to_string(columns));
+  };
+  const auto n = static_cast<Eigen::Index>(joints.size());
+  const auto D = static_cast<Eigen::Index>(coordinates.size());
+  require("running", running, 1);
+  require("ref", ref, n), require("ref_vel", ref_vel, n), require("ref_acc", ref_acc, n);
+  require("q", q, n), require("qd", qd, n), require("torque", torque, n);
+  require("tool_ref", tool_ref, D), require("tool_vel", tool_vel, D);
+  require("tool_acc", tool_acc, D);
+  require("tool_error_m", tool_error_m, 1), require("tool_error_rad", tool_error_rad, 1);
+  for (const Signal& signal : signals) require(signal.name, signal.values, 1);
+  if (effort.size() != 0 && effort.size() != n)
+    throw Error(source, "effort has " + std::to_string(effort.size()) + " values, must be " +
+                            std::to_string(n));
+  if (!slides.empty() && slides.size() != joints.size())
+    throw Error(source, "slides has " + std::to_string(slides.size()) + " values, must be " +
+                            std::to_string(n));
+}
+
 void Recording::write(const std::string& path) const {
+  validate();
   Columns columns(ticks());
   columns.add("time", time);
   if (running.size() > 0) columns.add("switch", running.cast<double>());

@@ -127,6 +127,11 @@ const std::vector<std::string>& Sequence::coordinates() const {
   return steps_.front().primitive.coordinates;
 }
 
+Sample Sequence::start_state() const {
+  coordinates();  // refuses an empty one
+  return Sample::at_rest(steps_.front().primitive.start_position);
+}
+
 double Sequence::duration() const {
   double sum = start_delay_;
   for (const Step& step : steps_) sum += due_after_entry(step.primitive, step.until, step.entry);

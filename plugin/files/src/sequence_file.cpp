@@ -194,7 +194,7 @@ std::string steps_text(const SequenceFile& file) {
 }  // namespace
 
 Sample SequenceFile::start_state() const {
-  return start ? *start : Sample::at_rest(sequence.steps().at(0).primitive.start_position);
+  return start ? *start : sequence.start_state();
 }
 
 SequenceFile read_sequence(const YamlEntry& entry, const Check& check) {

@@ -21,6 +21,8 @@ class PerJoint {
   double operator()(Eigen::Index joint) const {
     return values_.size() == 1 ? values_(0) : values_(joint);
   }
+  /// 1, or n.
+  Eigen::Index size() const { return values_.size(); }
   /// For n joints.
   Eigen::VectorXd each(Eigen::Index n) const {
     return values_.size() == 1 ? Eigen::VectorXd::Constant(n, values_(0)) : values_;

@@ -108,7 +108,7 @@ struct Companions {
 };
 
 /// Measures what a recording has columns for; the rest is NaN.
-/// @throws Error  fewer than 2 ticks, settings that will not do, a companion that has another tick or other joins (half),
+/// @throws Error  a recording that is not valid, fewer than 2 ticks, settings that will not do, a companion that has another tick or other joins (half),
 ///                other times, joints or coordinates (dmp2)
 RunMetrics measure(const Recording& recording, const Companions& companions = {},
                    const MetricSettings& settings = {});

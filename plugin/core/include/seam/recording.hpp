@@ -80,6 +80,8 @@ struct Recording {
   /// Whether there is a tool's reference.
   bool in_task_space() const { return !coordinates.empty(); }
 
+  /// @throws Error  names what has other sizes than `time`, `joints` and `coordinates` say
+  void validate() const;
   /// Reads what `write` writes, or any CSV with `time` [s] first, at even ticks. Joints are those of the columns
   /// torque.<j>, q.<j>, qd.<j>, else those of ref.<j>; each kind of column is there for all of them or for none, and is then
   /// empty. ref.<c> of x y z, or of x y z rx ry rz, that are no joints make it a recording in task space. Columns of other
@@ -89,7 +91,7 @@ struct Recording {
   static Recording read(const std::string& path);
   /// Writes the table as CSV. Columns: time, switch, ref.<j>, ref_vel.<j>, ref_acc.<j>, q.<j>, qd.<j>,
   /// torque.<j>; in task space also ref.<c>, ref_vel.<c>, ref_acc.<c>, tool_error_m, tool_error_rad; the signals.
-  /// @throws Error  cannot be written
+  /// @throws Error  not valid, or cannot be written
   void write(const std::string& path) const;
 };
 

@@ -15,5 +15,6 @@
 #include <seam/primitive.hpp>
 #include <seam/recording.hpp>
 #include <seam/recursive_learner.hpp>
+#include <seam/rollout.hpp>
 #include <seam/sequence.hpp>
 #include <seam/sequencer.hpp>

@@ -5,6 +5,7 @@
 
 #include <seam/basis.hpp>
 #include <seam/export.hpp>
+#include <seam/join.hpp>
 #include <seam/primitive.hpp>
 
 namespace SEAM_API seam {
@@ -109,6 +110,9 @@ class Sequence {
   /// Coordinate names, those of the first primitive.
   /// @throws Error  the sequence is empty
   const std::vector<std::string>& coordinates() const;
+  /// At rest where the first primitive's demonstration began: where a sequence begins unless told otherwise.
+  /// @throws Error  the sequence is empty
+  Sample start_state() const;
   /// Time [s] until the last switch is due; infinite where that depends on the motion.
   double duration() const;
 

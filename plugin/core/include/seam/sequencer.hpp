@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -89,7 +90,8 @@ class Sequencer {
   /// Grows with every change that anything but `step` makes: when it is what it was, the motion and its goal are what the
   /// last step left.
   unsigned changes() const noexcept { return changes_; }
-  int dimensions() const noexcept { return static_cast<int>(start_.position.size()); }  // D
+  int dimensions() const noexcept { return static_cast<int>(start_.position.size()); }   // D
+  const std::vector<std::string>& coordinates() const noexcept { return coordinates_; }  // D names
   /// Joins so far, the start included.
   int joins() const noexcept { return joins_; }
   /// The oldest that is still there: 0 until `append` or `replace` find more than `kept_joins`.

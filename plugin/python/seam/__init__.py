@@ -1,0 +1,34 @@
+"""seam joins movement primitives on an arm without a step in torque.
+
+    import seam
+
+    reach = seam.learn(seam.Demonstration.read("reach.csv"))
+    back = seam.learn(seam.Demonstration.read("back.csv"))
+    task = seam.Sequence().then(reach, until=seam.before_end(0.4)).then(back)
+    path = seam.rollout(task, "dmp3")                  # the movement alone
+    arm = seam.RobotModel.read("arm.urdf")
+    control = seam.ArmController(arm, task, join="dmp3", q=q0)
+    torque = control.tick(dt, q, qd)                   # in a loop: state in, torque out
+
+Names, units and defaults are those of the C++ library. SI units throughout; joint values are [rad], or [m] where a joint
+slides. Whatever numpy makes an array of is taken for an array. What seam refuses is a `seam.Error`, which is a ValueError.
+"""
+
+import os as _os
+
+from . import _seam
+from ._columns import Columns
+from ._recordings import plot, to_pandas as _to_pandas
+from ._scenes import play, scenes
+from ._seam import *  # noqa: F403
+from ._seam import __version__
+
+_share = _os.path.join(_os.path.dirname(__file__), "share")
+if _os.path.isdir(_share):  # in a wheel
+    _seam._set_own_folder(_share)
+
+Columns.__module__ = "seam"
+_seam.Recording.to_pandas = _to_pandas
+_seam.Demonstration.to_pandas = _to_pandas
+
+__all__ = sorted({name for name in dir(_seam) if not name.startswith("_")} | {"Columns", "play", "plot", "scenes"})

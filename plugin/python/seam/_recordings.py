@@ -1,0 +1,126 @@
+"""Recordings as frames of pandas, and as pictures."""
+
+import numpy
+
+KINDS = ("ref", "ref_vel", "ref_acc", "q", "qd", "torque")
+
+
+def _demonstration_columns(demo):
+    for prefix, values in (("", demo.position), ("vel.", demo.velocity), ("acc.", demo.acceleration)):
+        for i, name in enumerate(demo.coordinates):
+            yield prefix + name, values[:, i]
+
+
+def _recording_columns(run):
+    if run.running.size:
+        yield "switch", run.running
+    for kind in KINDS:
+        for i, name in enumerate(run.joints if getattr(run, kind).size else ()):
+            yield f"{kind}.{name}", getattr(run, kind)[:, i]
+    for kind, values in (("ref", run.tool_ref), ("ref_vel", run.tool_vel), ("ref_acc", run.tool_acc)):
+        for i, name in enumerate(run.coordinates if values.size else ()):
+            yield f"{kind}.{name}", values[:, i]
+    for name in ("tool_error_m", "tool_error_rad"):
+        if getattr(run, name).size:
+            yield name, getattr(run, name)
+    yield from run.signals.items()
+
+
+def to_pandas(self):
+    """The same as a frame of pandas, a column for each column of its CSV file, with time [s] as the index.
+
+    Raises:
+        ImportError: pandas is not installed
+    """
+    import pandas
+
+    columns = _recording_columns(self) if hasattr(self, "running") else _demonstration_columns(self)
+    return pandas.DataFrame(dict(columns), index=pandas.Index(self.time, name="time"))
+
+
+# Of all that has a position in a recording: where it is, its derivatives, its torque.
+def _signals(run, name):
+    if name in run.joints:
+        parts = [run.ref, run.ref_vel, run.ref_acc, run.torque]
+        angle = not run.slides_at(list(run.joints).index(name))
+        unit, effort = ("rad", "N·m") if angle else ("m", "N")
+    elif name in run.coordinates:
+        parts = [run.tool_ref, run.tool_vel, run.tool_acc]
+        unit, effort = ("rad" if name.startswith("r") else "m"), ""
+    else:
+        raise KeyError(f'no joint or coordinate "{name}", there are {", ".join([*run.joints, *run.coordinates])}')
+    titles = [f"position [{unit}]", f"velocity [{unit}/s]", f"acceleration [{unit}/s²]", f"torque [{effort}]"]
+    return [(title, part[name]) for title, part in zip(titles, parts) if part.size]
+
+
+def _most_disturbed(run):
+    """The joint whose torque (else acceleration) steps most at the joins, or moves most where there are none."""
+    from . import jump
+
+    values = run.torque if run.torque.size else run.ref_acc if run.ref_acc.size else run.tool_acc
+    if not values.size:
+        raise ValueError(f"{run.source}: nothing to plot, it has neither references nor torques")
+    steps = [numpy.abs(jump(run.time, values, join.time)) for join in run.joins]
+    steps = [step for step in steps if numpy.isfinite(step).all()] or [numpy.ptp(values, axis=0)]
+    return values.names[int(numpy.argmax(numpy.max(steps, axis=0)))]
+
+
+def plot(*runs, of=None, labels=None, around=None, within=0.3):
+    """Position, velocity, acceleration and torque over time, in four plots below each other, the joins marked.
+
+    Args:
+        runs: Recordings, to be compared; or one dict of labels and Recordings
+        of: joint or coordinate; None: the one that steps most at a join
+        labels: a name for each run, for the legend
+        around: time [s] to look at closely, or the index of a join; None: all of it
+        within: [s] to either side of it
+
+    Returns:
+        a matplotlib Figure; show it with matplotlib.pyplot.show() or save it by its savefig("run.png")
+
+    Raises:
+        ImportError: matplotlib is not installed
+        KeyError: there is no such joint or coordinate
+    """
+    from matplotlib import pyplot
+
+    if len(runs) == 1 and isinstance(runs[0], dict):
+        labels, runs = list(runs[0]), list(runs[0].values())
+    if not runs:
+        raise TypeError("plot: no recording is given")
+    if labels is not None and len(labels) != len(runs):
+        raise ValueError(f"plot: {len(labels)} labels, must be {len(runs)}, one for each recording")
+    of = _most_disturbed(runs[0]) if of is None else of
+    signals = [_signals(run, of) for run in runs]
+    titles = [title for title, _ in signals[0]]
+    figure, axes = pyplot.subplots(len(titles), 1, sharex=True, figsize=(8, 2 * len(titles)), squeeze=False)
+    for index, (run, parts) in enumerate(zip(runs, signals)):
+        for axis, (_, values) in zip(axes[:, 0], parts):
+            axis.plot(run.time, values, linewidth=1.2, label=labels[index] if labels else None)
+    if isinstance(around, int):
+        around = runs[0].joins[around].time
+    for axis, title in zip(axes[:, 0], titles):
+        axis.set_ylabel(title)
+        axis.grid(alpha=0.3)
+        for join in runs[0].joins:
+            axis.axvline(join.time, color="0.5", linewidth=0.8, linestyle="--")
+        if around is not None:
+            _look_closely(axis, around - within, around + within)
+    axes[-1, 0].set_xlabel("time [s]")
+    axes[0, 0].set_title(of)
+    if labels:
+        axes[0, 0].legend(loc="upper right")
+    figure.align_ylabels()
+    figure.tight_layout()
+    return figure
+
+
+def _look_closely(axis, begin, end):
+    """Shows a stretch of time, as high as what is there."""
+    seen = [line.get_ydata()[(line.get_xdata() >= begin) & (line.get_xdata() <= end)]
+            for line in axis.get_lines() if len(line.get_xdata()) > 2]
+    seen = numpy.concatenate(seen) if seen else numpy.array([])
+    axis.set_xlim(begin, end)
+    if seen.size:
+        margin = 0.05 * (numpy.ptp(seen) or 1.0)
+        axis.set_ylim(seen.min() - margin, seen.max() + margin)

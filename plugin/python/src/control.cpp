@@ -1,0 +1,109 @@
+// An arm's controller: (q, qd) in, torque out.
+#include "plugin/python/src/bind.hpp"
+#include "plugin/python/src/parts.hpp"
+#include "plugin/python/src/states.hpp"
+#include <seam/arm_controller.hpp>
+
+namespace seam::python {
+
+namespace {
+
+// A controller, and room for the state that comes in.
+struct Arm {
+  ArmController control;
+  Eigen::VectorXd q, qd;
+
+  const Eigen::VectorXd& tick(double dt, const Numbers& q_now, const Numbers& qd_now) {
+    if (!(dt > 0.0 && std::isfinite(dt))) throw Error("dt", std::to_string(dt) + " s, must be > 0");
+    q_now.copy_to(q, "q");
+    qd_now.copy_to(qd, "qd");
+    return control.tick(dt, q, qd);
+  }
+};
+
+py::array_t<double> new_array(const Eigen::VectorXd& values) {
+  return py::array_t<double>(values.size(), values.data());
+}
+
+void bind_settings(py::module_& module) {
+  Class<ArmControllerSettings>(module, "ArmControllerSettings")
+      .field("law", &ArmControllerSettings::law)
+      .field("tool", &ArmControllerSettings::tool)
+      .field("actuator", &ArmControllerSettings::actuator)
+      .field("sensor", &ArmControllerSettings::sensor)
+      .field("guard", &ArmControllerSettings::guard)
+      .made_of_fields();
+}
+
+void bind_controller(py::module_& module) {
+  using Tick = ArmController::Tick;
+  using Status = ArmController::Status;
+  Class<Arm> arm(module, "ArmController", "ArmController");
+  Enum<Status>(*arm, "Status", "ArmController::Status")
+      .value("following", Status::following)
+      .value("bridging", Status::bridging)
+      .value("stopped", Status::stopped);
+  Class<Tick>(*arm, "Tick", "ArmController::Tick")
+      .field("time", &Tick::time)
+      .field("running", &Tick::running)
+      .field("sequence", &Tick::sequence)
+      .field("reference", &Tick::reference)
+      .field("tool_error", &Tick::tool_error)
+      .field("q", &Tick::q)
+      .field("qd", &Tick::qd)
+      .field("torque", &Tick::torque)
+      .made_of_fields();
+  const auto inside = py::return_value_policy::reference_internal;
+  arm.init(
+         [](const RobotModel& model, const Sequence& sequence, const JoinChoice& join,
+            const ArmControllerSettings& settings, const std::optional<Numbers>& q,
+            const std::optional<Numbers>& qd) {
+           const int n = model.dof();
+           const Eigen::VectorXd at = q ? q->vector("q", n) : model.neutral();
+           const Eigen::VectorXd moving = qd ? qd->vector("qd", n) : Eigen::VectorXd::Zero(n);
+           return Arm{ArmController(model, sequence, join.value, settings, at, moving), at, moving};
+         },
+         py::arg("model"), py::arg("sequence"), py::arg("join") = "dmp3",
+         py::arg_v("settings", ArmControllerSettings{}, "ArmControllerSettings()"),
+         py::arg("q") = py::none(), py::arg("qd") = py::none())
+      .def(
+          "set_gravity",
+          [](Arm& self, const Numbers& gravity) {
+            self.control.set_gravity(gravity.vector("gravity_in_base", 3));
+          },
+          py::arg("gravity_in_base"))
+      .def(
+          "tick",
+          [](Arm& self, double dt, const Numbers& q, const Numbers& qd) {
+            return new_array(self.tick(dt, q, qd));
+          },
+          py::arg("dt"), py::arg("q"), py::arg("qd"))
+      .def(
+          "reinitialise",
+          [](Arm& self, const Numbers& q, const Numbers& qd) {
+            return self.control.reinitialise(q.vector("q", self.control.dof()),
+                                             qd.vector("qd", self.control.dof()));
+          },
+          py::arg("q"), py::arg("qd"))
+      .property("dof", [](const Arm& self) { return self.control.dof(); })
+      .property("model", [](const Arm& self) { return RobotModel(self.control.model()); })
+      .property("finished", [](const Arm& self) { return self.control.finished(); })
+      .property("status", [](const Arm& self) { return self.control.status(); })
+      .property("incident", [](const Arm& self) { return Incident(self.control.incident()); })
+      .def("what_happened", [](const Arm& self) { return self.control.what_happened(); })
+      .property("last_tick", [](const Arm& self) { return Tick(self.control.last_tick()); })
+      .property("limited", [](const Arm& self) { return self.control.limited(); });
+  (*arm).def_property_readonly(
+      "sequencer",
+      py::cpp_function([](Arm& self) -> Sequencer& { return self.control.sequencer(); }, inside),
+      doc("ArmController::sequencer"));
+}
+
+}  // namespace
+
+void bind_control(py::module_& module) {
+  bind_settings(module);
+  bind_controller(module);
+}
+
+}  // namespace seam::python

@@ -1,0 +1,84 @@
+#include "plugin/python/src/numbers.hpp"
+
+namespace seam::python {
+
+namespace {
+
+std::string shape_of(const py::array& array) {
+  return py::str(array.attr("shape")).cast<std::string>();
+}
+
+py::array_t<double> array_of(const Numbers& numbers, const std::string& name) {
+  const py::array any = py::array::ensure(numbers.given);
+  if (!any) PyErr_Clear();
+  if (!any || std::string("biuf").find(any.dtype().kind()) == std::string::npos)
+    throw Error(name, std::string("given as ") + Py_TYPE(numbers.given.ptr())->tp_name +
+                          (any ? " of " + py::str(any.dtype()).cast<std::string>() : "") +
+                          ", must be an array of numbers");
+  auto array = py::array_t<double, py::array::forcecast>::ensure(any);
+  if (!array) throw py::error_already_set();
+  return array;
+}
+
+}  // namespace
+
+Eigen::VectorXd Numbers::vector(const std::string& name) const {
+  const auto array = array_of(*this, name);
+  if (array.ndim() != 1) throw Error(name, "shape " + shape_of(array) + ", must be (n,)");
+  return array.cast<Eigen::VectorXd>();
+}
+
+Eigen::VectorXd Numbers::vector(const std::string& name, Eigen::Index n) const {
+  const auto array = array_of(*this, name);
+  if (array.ndim() != 1 || array.shape(0) != n)
+    throw Error(name, "shape " + shape_of(array) + ", must be (" + std::to_string(n) + ",)");
+  return array.cast<Eigen::VectorXd>();
+}
+
+Eigen::MatrixXd Numbers::matrix(const std::string& name) const {
+  const auto array = array_of(*this, name);
+  if (array.ndim() == 1) return array.cast<Eigen::VectorXd>();
+  if (array.ndim() != 2) throw Error(name, "shape " + shape_of(array) + ", must be (n, m) or (n,)");
+  return array.cast<Eigen::MatrixXd>();
+}
+
+void Numbers::copy_to(Eigen::VectorXd& values, const char* name) const {
+  if (!py::isinstance<py::array_t<double>>(given)) {
+    values = vector(name, values.size());
+    return;
+  }
+  const auto array = py::reinterpret_borrow<py::array_t<double>>(given);
+  if (array.ndim() != 1 || array.shape(0) != values.size())
+    throw Error(name,
+                "shape " + shape_of(array) + ", must be (" + std::to_string(values.size()) + ",)");
+  const char* at = reinterpret_cast<const char*>(array.data());
+  const py::ssize_t stride = array.strides(0);
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values(i) = *reinterpret_cast<const double*>(at + i * stride);
+}
+
+Eigen::Vector4d to_numbers(const Eigen::Quaterniond& orientation) {
+  return orientation.coeffs();
+}
+
+Eigen::Quaterniond to_quaternion(const Numbers& numbers, const std::string& name) {
+  return Eigen::Quaterniond(Eigen::Vector4d(numbers.vector(name, 4)));
+}
+
+Eigen::Isometry3d to_pose(const Numbers& numbers, const std::string& name) {
+  constexpr double rounding = 1e-6;
+  const Eigen::MatrixXd matrix = numbers.matrix(name);
+  if (matrix.rows() != 4 || matrix.cols() != 4)
+    throw Error(name, "shape (" + std::to_string(matrix.rows()) + ", " +
+                          std::to_string(matrix.cols()) + "), must be (4, 4)");
+  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
+  if (!matrix.allFinite() || !(R * R.transpose()).isIdentity(rounding) || R.determinant() < 0.0 ||
+      !matrix.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0), rounding))
+    throw Error(name, "is no pose: must be a rotation matrix and a position, with 0 0 0 1 below");
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = R;
+  pose.translation() = matrix.topRightCorner<3, 1>();
+  return pose;
+}
+
+}  // namespace seam::python
