@@ -18,7 +18,7 @@ import os as _os
 
 from . import _seam
 from ._columns import Columns
-from ._recordings import plot, to_pandas as _to_pandas
+from ._recordings import plot
 from ._scenes import play, scenes
 from ._seam import *  # noqa: F403
 from ._seam import __version__
@@ -28,7 +28,5 @@ if _os.path.isdir(_share):  # in a wheel
     _seam._set_own_folder(_share)
 
 Columns.__module__ = "seam"
-_seam.Recording.to_pandas = _to_pandas
-_seam.Demonstration.to_pandas = _to_pandas
 
 __all__ = sorted({name for name in dir(_seam) if not name.startswith("_")} | {"Columns", "play", "plot", "scenes"})

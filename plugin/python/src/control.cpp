@@ -21,10 +21,6 @@ struct Arm {
   }
 };
 
-py::array_t<double> new_array(const Eigen::VectorXd& values) {
-  return py::array_t<double>(values.size(), values.data());
-}
-
 void bind_settings(py::module_& module) {
   Class<ArmControllerSettings>(module, "ArmControllerSettings")
       .field("law", &ArmControllerSettings::law)

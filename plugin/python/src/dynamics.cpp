@@ -90,8 +90,7 @@ void bind_law(py::module_& module) {
          [](const RobotModel& model, const ControlSettings& control, const Numbers& posture) {
            return ComputedTorque(model, control, posture.vector("posture", model.dof()));
          },
-         py::arg("model"), py::arg_v("settings", ControlSettings{}, "ControlSettings()"),
-         py::arg("posture"))
+         py::arg("model"), py::arg("settings"), py::arg("posture"))
       .def(
           "start",
           [n](ComputedTorque& self, const Numbers& qd) {

@@ -1,5 +1,8 @@
 #include "plugin/python/src/numbers.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace seam::python {
 
 namespace {
@@ -18,6 +21,13 @@ py::array_t<double> array_of(const Numbers& numbers, const std::string& name) {
   auto array = py::array_t<double, py::array::forcecast>::ensure(any);
   if (!array) throw py::error_already_set();
   return array;
+}
+
+// The type of arrays of float64, of which numpy has one.
+const py::dtype& float64() {
+  static const auto* const type =
+      new py::dtype(py::dtype::of<double>());  // outlives the interpreter's last call
+  return *type;
 }
 
 }  // namespace
@@ -43,18 +53,28 @@ Eigen::MatrixXd Numbers::matrix(const std::string& name) const {
 }
 
 void Numbers::copy_to(Eigen::VectorXd& values, const char* name) const {
-  if (!py::isinstance<py::array_t<double>>(given)) {
+  const auto* array = py::detail::array_proxy(given.ptr());
+  const bool is_ready = py::isinstance<py::array>(given) && array->descr == float64().ptr() &&
+                        array->nd == 1 && array->dimensions[0] == values.size();
+  if (!is_ready) {
     values = vector(name, values.size());
     return;
   }
-  const auto array = py::reinterpret_borrow<py::array_t<double>>(given);
-  if (array.ndim() != 1 || array.shape(0) != values.size())
-    throw Error(name,
-                "shape " + shape_of(array) + ", must be (" + std::to_string(values.size()) + ",)");
-  const char* at = reinterpret_cast<const char*>(array.data());
-  const py::ssize_t stride = array.strides(0);
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    values(i) = *reinterpret_cast<const double*>(at + i * stride);
+  const char* at = array->data;
+  for (double& value : values) {
+    std::memcpy(&value, at, sizeof value);
+    at += array->strides[0];
+  }
+}
+
+py::array new_array(const Eigen::VectorXd& values) {
+  const auto& numpy = py::detail::npy_api::get();
+  const py::ssize_t size = values.size();
+  auto array = py::reinterpret_steal<py::array>(numpy.PyArray_NewFromDescr_(
+      numpy.PyArray_Type_, float64().inc_ref().ptr(), 1, &size, nullptr, nullptr, 0, nullptr));
+  if (!array) throw py::error_already_set();
+  std::copy(values.begin(), values.end(), static_cast<double*>(array.mutable_data()));
+  return array;
 }
 
 Eigen::Vector4d to_numbers(const Eigen::Quaterniond& orientation) {

@@ -29,6 +29,9 @@ struct Numbers {
   void copy_to(Eigen::VectorXd& values, const char* name) const;
 };
 
+/// A new array of float64, quicker than by casts: of one dimension.
+py::array new_array(const Eigen::VectorXd& values);
+
 /// The values of Eigen as an array that cannot be written to: a copy.
 template <typename Values>
 py::array read_only(const Values& values) {

@@ -1,5 +1,6 @@
 // Demonstrations, primitives and what they are made of.
 #include "plugin/python/src/bind.hpp"
+#include "plugin/python/src/pandas.hpp"
 #include "plugin/python/src/parts.hpp"
 #include <seam/basis.hpp>
 #include <seam/demonstration.hpp>
@@ -183,6 +184,7 @@ void bind_demonstration(py::module_& module) {
            py::call_guard<py::gil_scoped_release>())
       .def("validate", &Demonstration::validate)
       .def("require_coordinates", &Demonstration::require_coordinates, py::arg("names"));
+  (*demo).def("to_pandas", &to_pandas, to_pandas_doc);
   (*demo).def("__repr__", [](const Demonstration& d) {
     std::string names;
     for (const std::string& name : d.coordinates) names += (names.empty() ? "" : ", ") + name;

@@ -1,5 +1,6 @@
 // Recordings and what is measured on them.
 #include "plugin/python/src/bind.hpp"
+#include "plugin/python/src/pandas.hpp"
 #include "plugin/python/src/parts.hpp"
 #include <seam/metrics.hpp>
 #include <seam/recording.hpp>
@@ -138,6 +139,7 @@ void bind_recording(py::module_& module) {
       .def_static("read", &Recording::read, py::arg("path"),
                   py::call_guard<py::gil_scoped_release>())
       .def("write", &Recording::write, py::arg("path"), py::call_guard<py::gil_scoped_release>());
+  (*recording).def("to_pandas", &to_pandas, to_pandas_doc);
   (*recording).def("__repr__", [](const Recording& self) {
     const auto counted = [](std::size_t count, const char* what) {
       return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
