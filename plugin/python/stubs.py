@@ -29,6 +29,9 @@ def result_type(text):
     text = re.sub(r"\bseam\.", "", text)
     text = re.sub(r"(?<![\w.])(Union|Optional|List|Tuple|Dict|Any)\b", r"typing.\1", text)
     text = re.sub(r"(?<![\w.])(list|tuple|dict)\[", lambda m: f"typing.{m.group(1).capitalize()}[", text)
+    text = re.sub(r"(?<![\w.])dict\b", "typing.Dict[str, typing.Any]", text)
+    text = re.sub(r"(?<![\w.])tuple\b", "typing.Tuple[typing.Any, ...]", text)
+    text = re.sub(r"numpy\.ndarray$", "numpy.typing.NDArray[numpy.float64]", text)
     return re.sub(r"(?<![\w.])(object|handle)\b", "typing.Any", text)
 
 
@@ -151,6 +154,7 @@ def enumeration(name, cls, indent):
         text += f"{inner}{value}: typing.ClassVar[{cls.__qualname__}]\n"
     text += f"{inner}__members__: typing.ClassVar[typing.Dict[str, {cls.__qualname__}]]\n"
     text += f"{inner}def __init__(self, value: int) -> None: ...\n"
+    text += f"{inner}def __int__(self) -> int: ...\n{inner}def __index__(self) -> int: ...\n"
     text += f"{inner}@property\n{inner}def name(self) -> str: ...\n"
     return text + f"{inner}@property\n{inner}def value(self) -> int: ...\n"
 

@@ -17,11 +17,11 @@ slides. Whatever numpy makes an array of is taken for an array. What seam refuse
 import os as _os
 
 from . import _seam
-from ._columns import Columns
-from ._recordings import plot
-from ._scenes import play, scenes
+from ._columns import Columns as Columns
+from ._recordings import plot as plot
+from ._scenes import play as play, scenes as scenes
 from ._seam import *  # noqa: F403
-from ._seam import __version__
+from ._seam import __version__ as __version__
 
 _share = _os.path.join(_os.path.dirname(__file__), "share")
 if _os.path.isdir(_share):  # in a wheel

@@ -1,30 +1,37 @@
 """Arrays whose columns have names."""
 
+from typing import TYPE_CHECKING, Any, Tuple
+
 import numpy
 
+if TYPE_CHECKING:  # numpy's own class takes a type in brackets from numpy 1.22 on, but not everywhere
+    _Numbers = numpy.ndarray[Any, numpy.dtype[numpy.float64]]
+else:
+    _Numbers = numpy.ndarray
 
-class Columns(numpy.ndarray):
+
+class Columns(_Numbers):
     """An array (N, n) whose columns are also found by their names: `run.torque["E1"]` is one of them, (N,)."""
 
-    names: tuple = ()
+    names: Tuple[str, ...] = ()
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: Any) -> Any:
         if not isinstance(key, str):
             return self.view(numpy.ndarray)[key]
         if key not in self.names:
             raise KeyError(f'no column "{key}", there are {", ".join(self.names) or "none"}')
         return self.view(numpy.ndarray)[:, self.names.index(key)]
 
-    def __array_wrap__(self, array, context=None, return_scalar=False):
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
         """What is computed of them is an array like any other."""
         return array[()] if return_scalar else numpy.asarray(array)
 
-    def __reduce__(self):
+    def __reduce__(self) -> Any:
         return named, (numpy.asarray(self), self.names)
 
 
-def named(values, names):
+def named(values: Any, names: Any) -> "Columns":
     """The values (N, n) with n names of columns, without a copy."""
     columns = values.view(Columns)
     columns.names = tuple(names)
-    return columns
+    return columns  # type: ignore[no-any-return]

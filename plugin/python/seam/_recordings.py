@@ -1,17 +1,19 @@
 """Recordings as frames of pandas, and as pictures."""
 
+from typing import Any, Iterator, List, Optional, Tuple, Union
+
 import numpy
 
 KINDS = ("ref", "ref_vel", "ref_acc", "q", "qd", "torque")
 
 
-def _demonstration_columns(demo):
+def _demonstration_columns(demo: Any) -> Iterator[Tuple[str, Any]]:
     for prefix, values in (("", demo.position), ("vel.", demo.velocity), ("acc.", demo.acceleration)):
         for i, name in enumerate(demo.coordinates):
             yield prefix + name, values[:, i]
 
 
-def _recording_columns(run):
+def _recording_columns(run: Any) -> Iterator[Tuple[str, Any]]:
     if run.running.size:
         yield "switch", run.running
     for kind in KINDS:
@@ -26,20 +28,20 @@ def _recording_columns(run):
     yield from run.signals.items()
 
 
-def to_pandas(self):
+def to_pandas(self: Any) -> Any:
     """The same as a frame of pandas, a column for each column of its CSV file, with time [s] as the index.
 
     Raises:
         ImportError: pandas is not installed
     """
-    import pandas
+    import pandas  # type: ignore
 
     columns = _recording_columns(self) if hasattr(self, "running") else _demonstration_columns(self)
     return pandas.DataFrame(dict(columns), index=pandas.Index(self.time, name="time"))
 
 
 # Of all that has a position in a recording: where it is, its derivatives, its torque.
-def _signals(run, name):
+def _signals(run: Any, name: str) -> List[Tuple[str, Any]]:
     if name in run.joints:
         parts = [run.ref, run.ref_vel, run.ref_acc, run.torque]
         angle = not run.slides_at(list(run.joints).index(name))
@@ -53,7 +55,7 @@ def _signals(run, name):
     return [(title, part[name]) for title, part in zip(titles, parts) if part.size]
 
 
-def _most_disturbed(run):
+def _most_disturbed(run: Any) -> str:
     """The joint whose torque (else acceleration) steps most at the joins, or moves most where there are none."""
     from . import jump
 
@@ -62,10 +64,16 @@ def _most_disturbed(run):
         raise ValueError(f"{run.source}: nothing to plot, it has neither references nor torques")
     steps = [numpy.abs(jump(run.time, values, join.time)) for join in run.joins]
     steps = [step for step in steps if numpy.isfinite(step).all()] or [numpy.ptp(values, axis=0)]
-    return values.names[int(numpy.argmax(numpy.max(steps, axis=0)))]
+    return str(values.names[int(numpy.argmax(numpy.max(steps, axis=0)))])
 
 
-def plot(*runs, of=None, labels=None, around=None, within=0.3):
+def plot(
+    *runs: Any,
+    of: Optional[str] = None,
+    labels: Optional[List[str]] = None,
+    around: Union[int, float, None] = None,
+    within: float = 0.3,
+) -> Any:
     """Position, velocity, acceleration and torque over time, in four plots below each other, the joins marked.
 
     Args:
@@ -82,10 +90,10 @@ def plot(*runs, of=None, labels=None, around=None, within=0.3):
         ImportError: matplotlib is not installed
         KeyError: there is no such joint or coordinate
     """
-    from matplotlib import pyplot
+    from matplotlib import pyplot  # type: ignore
 
     if len(runs) == 1 and isinstance(runs[0], dict):
-        labels, runs = list(runs[0]), list(runs[0].values())
+        labels, runs = list(runs[0]), tuple(runs[0].values())
     if not runs:
         raise TypeError("plot: no recording is given")
     if labels is not None and len(labels) != len(runs):
@@ -115,11 +123,11 @@ def plot(*runs, of=None, labels=None, around=None, within=0.3):
     return figure
 
 
-def _look_closely(axis, begin, end):
+def _look_closely(axis: Any, begin: float, end: float) -> None:
     """Shows a stretch of time, as high as what is there."""
-    seen = [line.get_ydata()[(line.get_xdata() >= begin) & (line.get_xdata() <= end)]
+    parts = [line.get_ydata()[(line.get_xdata() >= begin) & (line.get_xdata() <= end)]
             for line in axis.get_lines() if len(line.get_xdata()) > 2]
-    seen = numpy.concatenate(seen) if seen else numpy.array([])
+    seen = numpy.concatenate(parts) if parts else numpy.array([])
     axis.set_xlim(begin, end)
     if seen.size:
         margin = 0.05 * (numpy.ptp(seen) or 1.0)

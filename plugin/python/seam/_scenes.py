@@ -3,11 +3,12 @@
 import json
 import os
 from pathlib import Path
+from typing import Any, Iterable, List, Mapping, Optional, Union
 
 from . import _seam
 
 
-def _entry(value):
+def _entry(value: Any) -> str:
     """As YAML has it; every JSON is YAML."""
     if isinstance(value, str):
         return value
@@ -16,12 +17,20 @@ def _entry(value):
     return json.dumps(value)
 
 
-def scenes():
+def scenes() -> List[str]:
     """Names of the scenes that come with seam, for `play` and `Scene.read`."""
     return [Path(path).stem for path in _seam._scene_files()]
 
 
-def play(scene, method=None, dt=None, *, set=None, allowed=(), **settings):
+def play(
+    scene: "Union[str, os.PathLike[str], _seam.Scene]",
+    method: Union[_seam.Join, _seam.JoinSettings, str, None] = None,
+    dt: Optional[float] = None,
+    *,
+    set: Optional[Mapping[str, Any]] = None,
+    allowed: "Iterable[Union[str, os.PathLike[str]]]" = (),
+    **settings: Any,
+) -> _seam.Recording:
     """Plays a scene in a Bullet world of its own, without a window, and records every tick.
 
     The same scene, method and dt give the same bits.
