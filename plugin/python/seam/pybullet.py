@@ -18,6 +18,7 @@ import functools
 import importlib
 import logging
 import math
+import operator
 import os
 import xml.etree.ElementTree
 
@@ -75,7 +76,8 @@ class Control:
     """A sequence that plays on one body. Made by `attach`.
 
     Call `tick` once before each stepSimulation: PyBullet adds up the torques of several ticks, and forgets them after the
-    step. Torques and forces that the app adds are left alone. For several bodies, `tick` each, then step once.
+    step. Torques and forces that the app adds are left alone. For several bodies, `tick` each, then step once. After
+    resetSimulation, or when the body was loaded again, attach anew: PyBullet gives its numbers out again.
     """
 
     def __init__(self, client, task, join, urdf, model, settings, joint_damping, inertia, package_path):
@@ -190,9 +192,7 @@ class Control:
         self.arm = None
 
     def _read_state(self):
-        states = self._states()
-        self._q[:] = [state[0] for state in states]
-        self._qd[:] = [state[1] for state in states]
+        self._q[:], self._qd[:], _, _ = zip(*self._states())
 
     def _world_of_tick(self):
         world = self._parameters()
@@ -242,12 +242,12 @@ class _Client:
 
     def __init__(self, client, body):
         self.body = body
-        if client is None or isinstance(client, int):
+        if client is None or not hasattr(client, "getJointStates"):
             try:
                 self._calls = importlib.import_module("pybullet")
             except ImportError as error:
                 raise seam.Error(f"PyBullet is not there: {error}") from None
-            self._which = {"physicsClientId": 0 if client is None else int(client)}
+            self._which = {"physicsClientId": 0 if client is None else operator.index(client)}
         else:
             self._calls, self._which = client, {}
         self.error = getattr(self._calls, "error", RuntimeError)
