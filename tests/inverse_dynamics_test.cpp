@@ -93,6 +93,12 @@ TEST(InverseDynamics, HoldsAPendulumByTheClosedForm) {
 }
 
 // Mass matrix, Coriolis and gravity terms of the two-link arm as textbooks give them.
+TEST(InverseDynamics, BearsNoWeightWhereTheFirstGravityIsNone) {
+  seam::InverseDynamics dynamics(seam::RobotModel::read(pendulum));
+  dynamics.set_gravity(Vector3d::Zero());
+  EXPECT_EQ(torque(dynamics, 0.7, 0.0, 0.0), 0.0);
+}
+
 TEST(InverseDynamics, MovesAPlanarArmByTheClosedForm) {
   seam::InverseDynamics dynamics(seam::RobotModel::read(planar_arm));
   const double m1 = 3.0, m2 = 1.5, l1 = 0.4, r1 = 0.25, r2 = 0.12, I1 = 0.055, I2 = 0.02, g = 9.81;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <vector>
 
 #include <BulletInverseDynamics/MultiBodyTree.hpp>
@@ -58,7 +59,8 @@ struct InverseDynamics::Tree {
   int count = 0;  // of the bodies added
   int root;       // 1: body 0 is the base
   id::vecx q, qd, qdd, torque;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gravity =
+      Eigen::Vector3d::Constant(NAN);  // that was set last: Bullet begins with its own
 };
 
 InverseDynamics::Tree::Tree(const RobotModel& model)

@@ -26,15 +26,14 @@ import numpy as np
 
 import seam
 
+from ._pybullet_body import FIXED, Link, bodies_of, differs, joints_by_name, listed, require_agreement, rotation_matrix, text
+
 __all__ = ["Control", "attach"]
 
 log = logging.getLogger("seam.pybullet")
 
 # PyBullet's numbers, as in its quick-start guide.
-_REVOLUTE, _PRISMATIC, _FIXED = 0, 1, 4
 _VELOCITY_CONTROL, _TORQUE_CONTROL = 0, 1
-
-_AGREEMENT = 1e-6  # of mass, centre of mass and inertia, relative
 
 
 def attach(body, task, join="dmp3", *, client=None, urdf=None, model=None, settings=None, joint_damping=0.0,
@@ -90,12 +89,12 @@ class Control:
             model = self._read(links, urdf, package_path)
         damping = _joint_damping(model, joint_damping)
         model = _without_drives(model)
-        self._joints = _joints_by_name(client, model, links)
+        self._joints = joints_by_name(client, model, links)
         if inertia == "pybullet":
             self._take_inertia(model, links)
         elif inertia != "urdf":
             raise seam.Error(f'inertia: "{inertia}", must be "urdf" or "pybullet"')
-        _require_agreement(client, model, links, self._joints)
+        require_agreement(client, model, links, self._joints)
         self._damping = np.array(damping) if any(damping) else None
         with client.errors():
             self._bind()
@@ -212,8 +211,8 @@ class Control:
         return self._root_in_world.T @ self._gravity
 
     def _take_inertia(self, model, links):
-        for body, (mass, com, inertia, _) in zip(model.bodies, _bodies(links, self._joints, model.neutral())):
-            if _differs(body.inertial, mass, com, inertia):
+        for body, (mass, com, inertia, _) in zip(model.bodies, bodies_of(links, self._joints, model.neutral())):
+            if differs(body.inertial, mass, com, inertia):
                 self._say(f'link "{body.link}": {mass:.6g} kg, the model\'s {body.inertial.mass:.6g} kg; mass and inertia taken '
                           f"from PyBullet")
                 body.inertial = seam.Inertial(mass=mass, com=com, inertia=inertia)
@@ -222,14 +221,14 @@ class Control:
         client, moved = self._client, set(self._joints)
         for joint in self._joints:
             client.call("setJointMotorControl2", client.body, joint, _VELOCITY_CONTROL, force=0)
-        self._say("motors off: " + _listed(joint.name for joint in model.joints))
+        self._say("motors off: " + listed(joint.name for joint in model.joints))
         client.call("changeDynamics", client.body, -1, linearDamping=0, angularDamping=0)
         self._say("linear and angular damping: 0")
         for i, joint in enumerate(self._joints):
             client.call("changeDynamics", client.body, joint, jointDamping=damping[i])
             self._say(f'joint "{model.joints[i].name}": damping {links[joint].damping:g} when loaded, {damping[i]:g} now')
         for j, link in enumerate(links):
-            if link.kind != _FIXED and j not in moved:
+            if link.kind != FIXED and j not in moved:
                 self._say(f'joint "{link.joint}": not in the model, keeps its motor')
 
     def _say(self, line):
@@ -278,7 +277,7 @@ class _Client:
 
     def name(self):
         """For messages."""
-        return f'PyBullet, body {self.body} ("{_text(self.call("getBodyInfo", self.body)[1])}")'
+        return f'PyBullet, body {self.body} ("{text(self.call("getBodyInfo", self.body)[1])}")'
 
     def require_fixed_base(self):
         # PyBullet: a base is fixed where its mass is 0; useFixedBase makes it so.
@@ -289,12 +288,12 @@ class _Client:
 
     def rotation_of_root(self):
         """Orientation of the URDF's root link in the world, 3 x 3. PyBullet tells that of its centre-of-mass frame."""
-        inertial = _rotation(self.call("getDynamicsInfo", self.body, -1)[4])
-        return _rotation(self.call("getBasePositionAndOrientation", self.body)[1]) @ inertial.T
+        inertial = rotation_matrix(self.call("getDynamicsInfo", self.body, -1)[4])
+        return rotation_matrix(self.call("getBasePositionAndOrientation", self.body)[1]) @ inertial.T
 
     def links(self):
         """Every link but the base."""
-        return [_Link(self, j) for j in range(self.call("getNumJoints", self.body))]
+        return [Link(self, j) for j in range(self.call("getNumJoints", self.body))]
 
 
 class _Errors:
@@ -308,58 +307,6 @@ class _Errors:
         if kind is not None and issubclass(kind, self._client.error) and not issubclass(kind, seam.Error):
             raise self._client.explain(error) from None
         return False
-
-
-class _Link:
-    """A link and the joint that moves it. Frames are at centres of mass, along principal axes, but for the URDF's."""
-
-    def __init__(self, client, j):
-        joint = client.call("getJointInfo", client.body, j)
-        dynamics = client.call("getDynamicsInfo", client.body, j)
-        self.joint, self.link = _text(joint[1]), _text(joint[12])
-        self.kind, self.parent, self.damping = joint[2], joint[16], joint[6]
-        self.axis = np.array(joint[13])
-        self.pivot_in_parent = np.array(joint[14])
-        self.rotation_in_parent = _rotation(joint[15]).T
-        self.mass = dynamics[0]
-        self.inertia = np.array(dynamics[2])
-        self.rotation_in_urdf = _rotation(dynamics[4])  # of the centre-of-mass frame in the URDF's link frame
-        self.com_in_urdf = np.array(dynamics[3])
-        self.com_from_pivot = self.rotation_in_urdf.T @ self.com_in_urdf
-
-    def place(self, parent, q):
-        """Puts the link at joint position q: `rotation` (3 x 3) and `com` [m] in the base, likewise `pivot` and
-        `direction` of its joint."""
-        above, origin = (parent.rotation, parent.com) if parent else (np.eye(3), np.zeros(3))
-        self.rotation = above @ self.rotation_in_parent
-        self.direction = self.rotation @ self.axis
-        self.pivot = origin + above @ self.pivot_in_parent
-        if self.kind == _REVOLUTE:
-            self.rotation = self.rotation @ _turn(self.axis, q)
-        self.com = self.pivot + self.rotation @ self.com_from_pivot
-        if self.kind == _PRISMATIC:
-            self.com = self.com + q * self.direction
-
-
-def _rotation(quaternion):
-    """3 x 3, of x, y, z, w."""
-    x, y, z, w = np.array(quaternion) / np.linalg.norm(quaternion)
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def _turn(axis, angle):
-    half = 0.5 * angle
-    return _rotation([*(math.sin(half) * axis), math.cos(half)])
-
-
-def _text(name):
-    return name.decode(errors="replace") if isinstance(name, bytes) else name
-
-
-def _listed(names):
-    return ", ".join(f'"{name}"' for name in names)
 
 
 def _joint_damping(model, wanted):
@@ -389,155 +336,13 @@ def _without_drives(model):
     return model
 
 
-def _joints_by_name(client, model, links):
-    """PyBullet's index of each of the model's joints."""
-    with client.errors():
-        who = client.name()
-    index = {link.joint: j for j, link in enumerate(links)}
-    joints = []
-    for joint in model.joints:
-        if joint.name not in index:
-            raise seam.Error(f'{who}: no joint "{joint.name}" of the model among {_listed(index)}')
-        kind = _PRISMATIC if joint.type == seam.Joint.Type.prismatic else _REVOLUTE
-        if links[index[joint.name]].kind != kind:
-            raise seam.Error(f'{who}: joint "{joint.name}" is of another type than the model\'s')
-        joints.append(index[joint.name])
-    for j, link in enumerate(links):
-        if link.parent >= j:
-            raise seam.Error(f'{who}: link "{link.link}" comes before its parent, which PyBullet simulates wrongly: load it without '
-                             f"URDF_MAINTAIN_LINK_ORDER")
-    for j in joints:
-        length = np.linalg.norm(links[j].axis)
-        if abs(length - 1) > 1e-7:
-            raise seam.Error(f'{who}: the axis of joint "{links[j].joint}" has length {length:.9g}, which PyBullet takes as it is: '
-                             f"make it 1 in the URDF")
-    return joints
-
-
-def _place(links, joints, q):
-    at = dict(zip(joints, q))
-    for j, link in enumerate(links):
-        link.place(links[link.parent] if link.parent >= 0 else None, at.get(j, 0.0))
-
-
-def _ancestors(links, j):
-    while j >= 0:
-        yield j
-        j = links[j].parent
-
-
-def _mass_matrix(links, joints, q):
-    """Of what PyBullet simulates, in the order of `joints`: n x n [kg m2, kg m or kg].
-
-    calculateMassMatrix does not serve: what it has found of a body once it keeps, also after a mass was changed."""
-    _place(links, joints, q)
-    column = {j: i for i, j in enumerate(joints)}
-    matrix = np.zeros((len(joints), len(joints)))
-    for b, link in enumerate(links):
-        linear, angular = np.zeros((3, len(joints))), np.zeros((3, len(joints)))
-        for j in _ancestors(links, b):
-            if j in column:
-                by = links[j]
-                turns = by.kind == _REVOLUTE
-                linear[:, column[j]] = np.cross(by.direction, link.com - by.pivot) if turns else by.direction
-                angular[:, column[j]] = by.direction if turns else 0.0
-        along = link.rotation.T @ angular
-        matrix += link.mass * linear.T @ linear + along.T @ (link.inertia[:, None] * along)
-    return matrix
-
-
-def _bodies(links, joints, q):
-    """Mass [kg], centre of mass [m] and inertia about it [kg m2] of what each joint moves rigidly, in the frame of the URDF
-    link behind the joint."""
-    _place(links, joints, q)
-    mine = {j: [] for j in joints}
-    for b in range(len(links)):
-        joint = next((j for j in _ancestors(links, b) if j in mine), None)
-        if joint is not None:
-            mine[joint].append(links[b])
-    bodies = []
-    for j in joints:
-        root = links[j].rotation @ links[j].rotation_in_urdf.T
-        origin = links[j].com - root @ links[j].com_in_urdf
-        mass = sum(link.mass for link in mine[j])
-        com = sum((link.mass * link.com for link in mine[j]), np.zeros(3)) / mass if mass else links[j].com
-        inertia = np.zeros((3, 3))
-        for link in mine[j]:
-            arm = link.com - com
-            inertia += link.rotation @ np.diag(link.inertia) @ link.rotation.T
-            inertia += link.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        bodies.append((mass, root.T @ (com - origin), root.T @ inertia @ root, mine[j]))
-    return bodies
-
-
-def _require_agreement(client, model, links, joints):
-    dynamics = seam.InverseDynamics(model)
-    neutral = np.array(model.neutral())
-    still = np.zeros(model.dof)
-    for q in (neutral, neutral + 0.3 + 0.4 * np.arange(model.dof) % 1.7):
-        theirs = _mass_matrix(links, joints, q)
-        ours = np.array([dynamics.torque(q, still, unit) for unit in np.eye(model.dof)]) - dynamics.torque(q, still, still)
-        size = np.sqrt(np.abs(np.diag(ours)))
-        if not np.all(np.abs(theirs - ours) <= _AGREEMENT * np.outer(size, size)):
-            with client.errors():
-                raise seam.Error(f"{client.name()}: {_what_differs(model, _bodies(links, joints, neutral))}")
-
-
-def _differs(inertial, mass, com, inertia):
-    moment = np.array(inertial.inertia)
-    return (abs(mass - inertial.mass) > _AGREEMENT * inertial.mass or
-            np.linalg.norm(com - inertial.com) > _AGREEMENT * (np.linalg.norm(com) + 1e-3) or
-            np.abs(inertia - moment).max() > _AGREEMENT * np.abs(moment).max())
-
-
-def _what_differs(model, theirs):
-    """One line on what PyBullet simulates otherwise than the model says."""
-    differ = [(body, *of) for body, of in zip(model.bodies, theirs) if _differs(body.inertial, *of[:3])]
-    masses = [of for of in differ if abs(of[1] - of[0].inertial.mass) > _AGREEMENT * of[0].inertial.mass]
-    scales = [np.linalg.norm(of[1]) / np.linalg.norm(body.inertial.com) for body, of in zip(model.bodies, theirs)
-              if np.linalg.norm(body.inertial.com) > 1e-3]
-    if masses:
-        return _of_mass(*masses[0], len(masses))
-    if scales and abs(scales[0] - 1) > 1e-3 and np.ptp(scales) < 1e-3 * scales[0]:
-        return f"is scaled by {scales[0]:.4g}, which the model is not: load it with globalScaling=1"
-    if differ:
-        return _of_inertia(*differ[0], len(differ), len(theirs))
-    return "its joints are elsewhere than the model's, or have other axes: was another URDF loaded, or a scale given?"
-
-
-def _of_mass(body, mass, com, inertia, links, count):
-    more = f", and those of {count - 1} more" if count > 1 else ""
-    made_up = [link.link for link in links if link.mass == 1.0 and not link.com_in_urdf.any()]
-    if made_up and abs(mass - body.inertial.mass - len(made_up)) < 1e-6:
-        return (f"link {_listed(made_up)} weighs 1 kg in PyBullet, as any link without <inertial>, and nothing in the model: give it "
-                f'an <inertial> of mass 0, or pass inertia="pybullet"')
-    carried = [link.link for link in links if link.link != body.link]
-    with_them = f", with {_listed(carried)} fixed to it," if carried else ""
-    return (f'the mass of link "{body.link}"{with_them} is {mass:.9g} kg, in the model {body.inertial.mass:.9g} kg{more}: was it '
-            f'changed by changeDynamics? inertia="pybullet" takes it over')
-
-
-def _of_inertia(body, mass, com, inertia, links, count, of):
-    empty = [link.link for link in links if link.mass == 0 and link.inertia.any()]
-    if empty:
-        return (f"link {_listed(empty)} has inertia and no mass, which the model leaves out: give it an inertia of 0, or pass "
-                f'inertia="pybullet"')
-    return (f'the inertia of link "{body.link}" has moments {_moments(inertia)} kg m2, in the model {_moments(body.inertial.inertia)} '
-            f"({count} of {of} links differ): load it with flags=URDF_USE_INERTIA_FROM_FILE (without it PyBullet takes the inertia of "
-            f'the collision shapes, and moments that no solid can have for 0), or pass inertia="pybullet"')
-
-
-def _moments(inertia):
-    return "(" + ", ".join(f"{moment:.4g}" for moment in np.linalg.eigvalsh(inertia)) + ")"
-
-
 def _find_urdf(client, links):
     """The one URDF with the body's names in the folders of its meshes, and up to three above."""
-    base, name = (_text(part) for part in client.call("getBodyInfo", client.body))
-    wanted = {base} | {link.link for link in links}, {link.joint for link in links if link.kind != _FIXED}
+    base, name = (text(part) for part in client.call("getBodyInfo", client.body))
+    wanted = {base} | {link.link for link in links}, {link.joint for link in links if link.kind != FIXED}
     folders = []
     for shape in client.call("getVisualShapeData", client.body):
-        folder = os.path.dirname(os.path.abspath(_text(shape[4]))) if shape[4] else ""
+        folder = os.path.dirname(os.path.abspath(text(shape[4]))) if shape[4] else ""
         for _ in range(4):
             if folder not in folders and os.path.isdir(folder):
                 folders.append(folder)

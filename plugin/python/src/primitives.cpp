@@ -67,6 +67,14 @@ std::pair<Eigen::VectorXd, py::object> split_frame(const py::object& frame) {
   return {time.vector("time"), rest};
 }
 
+void require_shape(const Eigen::MatrixXd& values, const Demonstration& demo, const char* place) {
+  const auto D = static_cast<Eigen::Index>(demo.coordinates.size());
+  if (values.rows() != demo.time.size() || values.cols() != D)
+    throw Error(place, "shape (" + std::to_string(values.rows()) + ", " +
+                           std::to_string(values.cols()) + "), must be (" +
+                           std::to_string(demo.time.size()) + ", " + std::to_string(D) + ")");
+}
+
 Demonstration demonstration(const py::object& first, const py::object& position,
                             const Names& coordinates, const py::object& velocity,
                             const py::object& acceleration,
@@ -97,19 +105,16 @@ Demonstration demonstration(const py::object& first, const py::object& position,
   demo.coordinates = columns.names;
   demo.time = time;
   demo.position = columns.values;
+  require_shape(demo.position, demo, "position");
   const auto slopes = [&](const py::object& given, const Eigen::MatrixXd& of, const char* place) {
     if (!given.is_none()) return values_of(given, columns.names, time.size(), place);
     return Demonstration::from_positions(columns.names, time, of, DerivativeSettings{cutoff})
         .velocity;
   };
-  if (demo.position.rows() != time.size() ||
-      demo.position.cols() != static_cast<Eigen::Index>(columns.names.size()))
-    throw Error("position", "shape (" + std::to_string(demo.position.rows()) + ", " +
-                                std::to_string(demo.position.cols()) + "), must be (" +
-                                std::to_string(time.size()) + ", " +
-                                std::to_string(columns.names.size()) + ")");
   demo.velocity = slopes(velocity, demo.position, "velocity");
+  require_shape(demo.velocity, demo, "velocity");
   demo.acceleration = slopes(acceleration, demo.velocity, "acceleration");
+  require_shape(demo.acceleration, demo, "acceleration");
   demo.reference_orientation = reference;
   demo.source = source;
   demo.validate();
