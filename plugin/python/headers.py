@@ -189,6 +189,8 @@ SPEECH = [
     (r"\b(std|Eigen|seam)::", ""),
     (r"\bnullopt\b|\bnullptr\b", "None"),
     (r"(\w)::(\w)", r"\1.\2"),
+    (r"\bfalse\b", "False"),
+    (r"\s*Neither allocates nor throws( after construction)?\.", ""),  # Python's side of it does
 ]
 
 
@@ -201,7 +203,8 @@ def python_speech(text):
 def docstring(doc):
     """Comment lines as Python's users know them: prose, then Args, Returns, Raises."""
     prose, sections, now = [], {"Args": [], "Returns": [], "Raises": []}, None
-    for line in (python_speech(line) for line in doc):
+    lines = "\n".join(re.sub(r"(?<=\S)\s+@(?=param|return|throws)", "\n@", line) for line in doc).split("\n")
+    for line in (python_speech(line) for line in lines):
         command = re.match(r"\s*@(param|return|throws)\s*(?:\[\w+\]\s*)?(.*)", line)
         if command:
             now = {"param": "Args", "return": "Returns", "throws": "Raises"}[command.group(1)]

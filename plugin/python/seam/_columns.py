@@ -24,7 +24,7 @@ class Columns(_Numbers):
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
         """What is computed of them is an array like any other."""
-        return array[()] if return_scalar else numpy.asarray(array)
+        return array[()] if return_scalar or array.ndim == 0 else numpy.asarray(array)
 
     def __reduce__(self) -> Any:
         return named, (numpy.asarray(self), self.names)

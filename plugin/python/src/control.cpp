@@ -73,6 +73,14 @@ void bind_controller(py::module_& module) {
           [](Arm& self, double dt, const Numbers& q, const Numbers& qd) {
             return new_array(self.tick(dt, q, qd));
           },
+          "Advances the sequence by dt, and gives the torque that is to act from now until dt "
+          "later.\n\nArgs:\n"
+          "    dt: [s] > 0, from this tick to the next\n"
+          "    q: (n,) [rad or m] where the joints are; NaN where that is not known\n"
+          "    qd: (n,) [rad/s or m/s] how they move\n\n"
+          "Returns:\n    (n,) [N·m or N] what the actuator delivers to the joints until the next "
+          "tick; a new array\n\n"
+          "Raises:\n    Error: q or qd has another shape or are no numbers, dt is not > 0",
           py::arg("dt"), py::arg("q"), py::arg("qd"))
       .def(
           "reinitialise",

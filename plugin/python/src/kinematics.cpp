@@ -140,14 +140,15 @@ struct Sized {
 template <typename Reference>
 void bind_reference(Class<Sized<Reference>>& bound) {
   using S = Sized<Reference>;
-  bound
+  const auto said = [](const char* name) { return doc(std::string("JointReference::") + name); };
+  (*bound)
       .def(
           "measured",
           [](S& self, const Numbers& q, const Numbers& qd) {
             return self.reference->measured(q.vector("q", self.joints),
                                             qd.vector("qd", self.joints));
           },
-          py::arg("q"), py::arg("qd"))
+          said("measured"), py::arg("q"), py::arg("qd"))
       .def(
           "take_up",
           [](S& self, const Numbers& q, const Numbers& qd) {
@@ -156,6 +157,8 @@ void bind_reference(Class<Sized<Reference>>& bound) {
                                                        qd.vector("qd", self.joints), at);
             return there ? std::optional(at) : std::nullopt;
           },
+          "The state of the sequence's coordinates while the joints are at (q, qd): a Sample, or "
+          "None where they have no such state.",
           py::arg("q"), py::arg("qd"))
       .def(
           "at_goal",
@@ -165,6 +168,8 @@ void bind_reference(Class<Sized<Reference>>& bound) {
                 self.reference->at_goal(goal.vector("goal", self.coordinates), joints);
             return known ? std::optional(joints) : std::nullopt;
           },
+          "Joint positions (n,) [rad or m] at a goal of the sequence, or None where only moving "
+          "there tells.",
           py::arg("goal"))
       .def(
           "require_reachable",
@@ -176,7 +181,7 @@ void bind_reference(Class<Sized<Reference>>& bound) {
                                            std::to_string(self.coordinates));
             self.reference->require_reachable(primitive);
           },
-          py::arg("primitive"))
+          said("require_reachable"), py::arg("primitive"))
       .def(
           "find",
           [](S& self, const Start& sample) {
@@ -184,6 +189,8 @@ void bind_reference(Class<Sized<Reference>>& bound) {
             const bool found = self.reference->find(sample.of(self.coordinates, "sample"), joints);
             return found ? std::optional(joints) : std::nullopt;
           },
+          "The joints' state for a sample of the sequence: a Sample of n joints, or None where "
+          "there is none.",
           py::arg("sample"))
       .def(
           "miss",
@@ -191,7 +198,7 @@ void bind_reference(Class<Sized<Reference>>& bound) {
             return self.reference->miss(sample.of(self.coordinates, "sample"),
                                         q.vector("q", self.joints));
           },
-          py::arg("sample"), py::arg("q"));
+          said("miss"), py::arg("sample"), py::arg("q"));
 }
 
 void bind_spaces(py::module_& module) {

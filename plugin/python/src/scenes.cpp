@@ -21,7 +21,7 @@ void bind_events(py::module_& module) {
   event
       .def_readonly("at", &Event::at,
                     "[s] since the run began; takes effect at the first tick then or later.")
-      .def_readonly("what", &Event::what)
+      .def_readonly("what", &Event::what, "What happens.")
       .def_property_readonly(
           "goal", [](const Event& self) { return read_only(self.goal); },
           "(D,) [rad or m]; NaN where a coordinate's goal stays.")
