@@ -19,7 +19,7 @@ import os as _os
 from . import _seam
 from ._columns import Columns as Columns
 from ._recordings import plot as plot
-from ._scenes import play as play, scenes as scenes
+from ._scenes import asset as asset, play as play, scenes as scenes
 from ._seam import *  # noqa: F403
 from ._seam import __version__ as __version__
 
@@ -29,4 +29,4 @@ if _os.path.isdir(_share):  # in a wheel
 
 Columns.__module__ = "seam"
 
-__all__ = sorted({name for name in dir(_seam) if not name.startswith("_")} | {"Columns", "play", "plot", "scenes"})
+__all__ = sorted({name for name in dir(_seam) if not name.startswith("_")} | {"Columns", "asset", "play", "plot", "scenes"})

@@ -22,6 +22,19 @@ def scenes() -> List[str]:
     return [Path(path).stem for path in _seam._scene_files()]
 
 
+def asset(path: str) -> str:
+    """Path of a file that comes with seam: the PA-10 is `asset("pa10/pa10.urdf")`, a movement `asset("demos/reach.csv")`.
+
+    Raises:
+        FileNotFoundError: there is no such file (lists those beside it)
+    """
+    file = Path(_seam._own_folder(), "assets", path)
+    if not file.exists():
+        beside = sorted(other.name for other in file.parent.glob("*")) if file.parent.is_dir() else []
+        raise FileNotFoundError(f"{file}: there is no such file, there are {', '.join(beside) or 'none'}")
+    return str(file)
+
+
 def play(
     scene: "Union[str, os.PathLike[str], _seam.Scene]",
     method: Union[_seam.Join, _seam.JoinSettings, str, None] = None,

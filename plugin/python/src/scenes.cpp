@@ -94,6 +94,7 @@ void bind_scenes(py::module_& module) {
       },
       py::arg("scene"), py::arg("method"), py::arg("dt"));
   module.def("_scene_files", [] { return scene_files({}); });
+  module.def("_own_folder", &own_folder);
   module.def("_set_own_folder", &set_own_folder, py::arg("folder"));
 }
 
