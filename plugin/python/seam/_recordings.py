@@ -56,15 +56,18 @@ def _signals(run: Any, name: str) -> List[Tuple[str, Any]]:
 
 
 def _most_disturbed(run: Any) -> str:
-    """The joint whose torque (else acceleration) steps most at the joins, or moves most where there are none."""
+    """The joint (else coordinate) whose acceleration steps most at the joins, or that moves most where none does."""
     from . import jump
 
-    values = run.torque if run.torque.size else run.ref_acc if run.ref_acc.size else run.tool_acc
-    if not values.size:
+    found = [values for values in (run.ref_acc, run.tool_acc, run.torque) if values.size]
+    if not found:
         raise ValueError(f"{run.source}: nothing to plot, it has neither references nor torques")
+    values = found[0]
     steps = [numpy.abs(jump(run.time, values, join.time)) for join in run.joins]
-    steps = [step for step in steps if numpy.isfinite(step).all()] or [numpy.ptp(values, axis=0)]
-    return str(values.names[int(numpy.argmax(numpy.max(steps, axis=0)))])
+    steps = [step for step in steps if numpy.isfinite(step).all()]
+    of_all = numpy.max(steps, axis=0) if steps else numpy.zeros(values.shape[1])
+    spread = numpy.ptp(values, axis=0)
+    return str(values.names[int(numpy.argmax(of_all if of_all.max() > 0.01 * spread.max() else spread))])
 
 
 def plot(
@@ -78,7 +81,7 @@ def plot(
 
     Args:
         runs: Recordings, to be compared; or one dict of labels and Recordings
-        of: joint or coordinate; None: the one that steps most at a join
+        of: joint or coordinate; None: the joint whose acceleration steps most at a join
         labels: a name for each run, for the legend
         around: time [s] to look at closely, or the index of a join; None: all of it
         within: [s] to either side of it
