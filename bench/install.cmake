@@ -3,9 +3,7 @@
 include(GNUInstallDirs)
 install(TARGETS seam RUNTIME COMPONENT program)
 set(share ${CMAKE_INSTALL_DATADIR}/seam)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${share} COMPONENT program FILES_MATCHING PATTERN *.yaml PATTERN view EXCLUDE)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/assets DESTINATION ${share} COMPONENT program
-  PATTERN pa10/source EXCLUDE PATTERN generate.* EXCLUDE)
+seam_install_scenes(${share} program)
 install(DIRECTORY baselines experiments DESTINATION ${share}/bench COMPONENT program PATTERN *.png EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/seam RENAME copyright COMPONENT program)
 install(FILES completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME seam COMPONENT program)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/bare.sh SUITE [FOLDER]: what a stranger does on a new machine. Makes a bare Debian SUITE (bookworm, trixie) in FOLDER (default
 # /var/tmp/seam-SUITE, which must not be there yet), clones the last commit, and runs `make bench` and `make test`; then packs it, and
-# installs the packages in a second bare system, FOLDER.installed, and uses the program there from an empty folder. By hand, as root,
+# installs the packages in a second bare system, FOLDER.installed, and uses the program and the module there from empty folders. By hand, as root,
 # with debootstrap; takes half an hour and 10 GB. What is printed also goes to FOLDER.log; the folders stay, to look at. CI=true in
 # the environment makes warnings errors.
 set -euo pipefail
@@ -54,3 +54,7 @@ timed 'the installed program' inside "$folder.installed" 'mkdir /root/empty && c
   seam check assets/pa10/pa10.urdf
   seam experiment speed --values 0.5,1 --out answers
   ls -l . /usr/share/man/man1/seam*'
+timed 'the installed module' inside "$folder.installed" 'mkdir /root/another && cd /root/another && python3 -c "
+import seam
+run = seam.play(\"line\", method=\"dmp3\")
+print(seam.__version__, seam.scenes(), run.ticks, seam.measure(run).torque_jump_nm)"'

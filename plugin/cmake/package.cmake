@@ -1,5 +1,5 @@
 # Debian packages, made by `cpack --preset package`: libseam0 with the libraries, libseam-dev with what it takes to build
-# on them, seam with the program.
+# on them, seam with the program, python3-seam with the module of Python.
 
 set(CPACK_PACKAGE_NAME seam)
 set(CPACK_PACKAGE_CONTACT "seam authors")
@@ -40,4 +40,25 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "gnuplot-nox | gnuplot, fonts-dejavu-core, libegl1, libegl-mesa0, libgl1-mesa-dri, libopengl0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS ffmpeg)
+
+# The module fits one minor version of Python. What it plays is the program's. (CPack remarks that it has no soname: nobody
+# links it.)
+if(SEAM_PYTHON)
+  find_package(Python 3.9 REQUIRED COMPONENTS Interpreter)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-seam)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Movement primitives on a Bullet arm: the module of Python.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), \
+python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  if(SEAM_PROGRAM)
+    string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", seam (= ${PROJECT_VERSION})")
+  endif()
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-matplotlib)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-pandas)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${CMAKE_CURRENT_LIST_DIR}/python3-seam/postinst ${CMAKE_CURRENT_LIST_DIR}/python3-seam/prerm)
+endif()
 include(CPack)

@@ -21,6 +21,10 @@ for library in libbullet libbullet-extras liburdfdom-model libassimp libyaml-cpp
   [[ $depends =~ (^|[ ])$library[0-9] ]] || complain "libseam0 does not depend on $library: $depends"
 done
 [[ $(dpkg-deb -f "$packages"/libseam-dev_*.deb Depends) == *"libseam0 (= "* ]] || complain "libseam-dev takes any libseam0"
+depends=$(dpkg-deb -f "$packages"/python3-seam_*.deb Depends)
+for wanted in 'python3 (>= 3.' 'python3 (<< 3.' python3-numpy 'seam (= ' libbullet libassimp; do
+  [[ ", $depends" == *", $wanted"* ]] || complain "python3-seam does not depend on $wanted: $depends"
+done
 
 libraries=$(dirname "$(find "$prefix" -name libseam-core.so)")
 for folder in "$@"; do

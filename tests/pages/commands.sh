@@ -22,7 +22,7 @@ make() { [[ $makefile == *$'\n'"$1:"* || $makefile == *$'\n'"$1 "*": "* ]] || co
 cmake() { known_preset cmake "$@"; }
 ctest() { known_preset ctest "$@"; }
 cpack() { known_preset cpack "$@"; }
-for program in awk g++ pkg-config sudo; do eval "$program() { :; }"; done
+for program in awk g++ pip pkg-config sudo; do eval "$program() { :; }"; done
 command_not_found_handle() { complain "$1: not known here, see tests/pages/commands.sh"; }
 PATH=$folder
 

@@ -23,9 +23,12 @@ from ._scenes import asset as asset, play as play, scenes as scenes
 from ._seam import *  # noqa: F403
 from ._seam import __version__ as __version__
 
-_share = _os.path.join(_os.path.dirname(__file__), "share")
-if _os.path.isdir(_share):  # in a wheel
-    _seam._set_own_folder(_share)
+# Scenes and assets lie in a wheel's own share, or in that of the program which is installed with the module.
+_here = _os.path.dirname(_os.path.abspath(__file__))
+for _share in (_os.path.join(_here, "share"), _os.path.normpath(_os.path.join(_here, "../../../../share/seam"))):
+    if _os.path.isdir(_os.path.join(_share, "scenes")):
+        _seam._set_own_folder(_share)
+        break
 
 Columns.__module__ = "seam"
 
