@@ -237,6 +237,17 @@ def test_orientations_go_through_the_rotation_vector():
     np.testing.assert_allclose(state.velocity, [0, 0, 1.5], atol=1e-14)
 
 
+def test_a_sequence_may_grow_while_another_thread_plays_it():
+    task = seam.Sequence().then(one())
+    paths = []
+    thread = threading.Thread(target=lambda: paths.extend(seam.rollout(task, "dmp3", dt=1e-4, duration=1.5) for _ in range(20)))
+    thread.start()
+    while thread.is_alive():
+        task.then(one())
+    thread.join()
+    assert all(np.isfinite(path.ref).all() for path in paths) and len(task) > 1
+
+
 def test_learning_lets_other_threads_go_on():
     t = np.linspace(0, 10, 20001)
     demo = seam.Demonstration(t, np.sin(np.outer(t, np.arange(1, 8))))

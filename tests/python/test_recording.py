@@ -48,6 +48,20 @@ def test_measures_a_step():
         seam.measure(recording(), half=half)
 
 
+def test_measures_at_times_that_are_told():
+    run = seam.Recording(joints=["a", "b"], time=T, torque=recording().torque)
+    assert math.isnan(seam.measure(run).torque_jump_nm)
+    assert seam.measure(run, joins=[0.5]).torque_jump_nm == pytest.approx(1.5, abs=1e-5)
+    with pytest.raises(seam.Error, match="finite"):
+        seam.measure(run, joins=[math.nan])
+
+
+def test_is_what_it_was_made():
+    for name in ("time", "torque", "joins", "source", "outcomes"):
+        with pytest.raises(AttributeError):
+            setattr(recording(), name, None)
+
+
 def test_matchers_say_why_not():
     assert seam.TorqueIsContinuousAt(0.5).within(2.0).why_not(recording()) == ""
     assert "joint b steps by 1.5 N·m at 0.5 s" in seam.TorqueIsContinuousAtAllJoins().within(0.5).why_not(recording())

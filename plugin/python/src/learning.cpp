@@ -56,8 +56,14 @@ void bind_learning(py::module_& module) {
                                    "too: learn(demo, kind=\"rhythmic\", kernels=20).")
           .c_str(),
       py::arg("demo"), py::arg_v("settings", LearnSettings{}, "LearnSettings()"));
-  def(module, "assess", &assess, py::arg("demo"), py::arg("primitive"),
-      py::call_guard<py::gil_scoped_release>());
+  def(
+      module, "assess",
+      [](const Demonstration& demo, const Primitive& primitive) {
+        const Primitive as_it_is = primitive;  // others may change theirs meanwhile
+        py::gil_scoped_release others_go_on;
+        return assess(demo, as_it_is);
+      },
+      py::arg("demo"), py::arg("primitive"));
   def(module, "find_period", &find_period, py::arg("demo"),
       py::call_guard<py::gil_scoped_release>());
   def(

@@ -1,4 +1,6 @@
 // Recordings and what is measured on them.
+#include <cmath>
+
 #include "plugin/python/src/bind.hpp"
 #include "plugin/python/src/pandas.hpp"
 #include "plugin/python/src/parts.hpp"
@@ -97,7 +99,7 @@ void bind_recording(py::module_& module) {
       .fixed("q", &Recording::q, columns(&Recording::q, &Recording::joints))
       .fixed("qd", &Recording::qd, columns(&Recording::qd, &Recording::joints))
       .fixed("torque", &Recording::torque, columns(&Recording::torque, &Recording::joints))
-      .field("joins", &Recording::joins)
+      .fixed("joins", &Recording::joins)
       .fixed("coordinates", &Recording::coordinates)
       .fixed("tool_ref", &Recording::tool_ref,
              columns(&Recording::tool_ref, &Recording::coordinates))
@@ -121,8 +123,8 @@ void bind_recording(py::module_& module) {
                     outcomes[outcome.name.c_str()] = outcome.value;
                   return outcomes;
                 })
-      .field("incident", &Recording::incident)
-      .field("source", &Recording::source)
+      .fixed("incident", &Recording::incident)
+      .fixed("source", &Recording::source)
       .made_of_many_fields();
   recording.property("ticks", &Recording::ticks)
       .property("dt",
@@ -149,6 +151,17 @@ void bind_recording(py::module_& module) {
            counted(self.joints.size() + self.coordinates.size(), "column") + ", " +
            counted(self.joins.size(), "join") + ">";
   });
+}
+
+// The same with joins at other times [s].
+Recording joined_at(const Recording& recording, const Numbers& times) {
+  Recording other = recording;
+  other.joins.clear();
+  for (const double time : times.vector("joins")) {
+    if (!std::isfinite(time)) throw Error("joins", "must be finite times [s]");
+    other.joins.push_back({time});
+  }
+  return other;
 }
 
 void bind_metrics(py::module_& module) {
@@ -221,16 +234,24 @@ void bind_metrics(py::module_& module) {
   module.def(
       "measure",
       [](const Recording& recording, const Recording* half, const Recording* dmp2,
-         const MetricSettings& settings) {
-        return measure(recording, {half, dmp2}, settings);
+         const MetricSettings& settings, const std::optional<Numbers>& joins) {
+        const MetricSettings chosen = settings;  // others may change theirs meanwhile
+        std::optional<Recording> rejoined, half_rejoined;
+        if (joins) {
+          rejoined = joined_at(recording, *joins);
+          if (half) half_rejoined = joined_at(*half, *joins);
+        }
+        py::gil_scoped_release others_go_on;
+        return measure(rejoined ? *rejoined : recording,
+                       {half_rejoined ? &*half_rejoined : half, dmp2}, chosen);
       },
       (std::string(doc("measure")) +
        "\n\nArgs:\n    half: the same run at dt/2: gives the orders\n"
-       "    dmp2: the same run with dmp2, at the same dt: gives the deviations")
+       "    dmp2: the same run with dmp2, at the same dt: gives the deviations\n"
+       "    joins: (J,) times [s] of the joins, instead of those that the recordings have")
           .c_str(),
       py::arg("recording"), py::arg("half") = py::none(), py::arg("dmp2") = py::none(),
-      py::arg_v("settings", MetricSettings{}, "MetricSettings()"),
-      py::call_guard<py::gil_scoped_release>());
+      py::arg_v("settings", MetricSettings{}, "MetricSettings()"), py::arg("joins") = py::none());
 }
 
 template <typename Matcher>

@@ -63,7 +63,9 @@ void bind_scenes(py::module_& module) {
       .def_property_readonly(
           "start", [](const Scene& self) { return read_only(self.start); },
           "(n,) joint positions [rad or m], at rest.")
-      .def_readonly("tool", &Scene::tool, "Settings of the tool, in task space; else None.")
+      .def_property_readonly(
+          "tool", [](const Scene& self) { return self.tool; },
+          "Settings of the tool, in task space, a copy; else None.")
       .def_property_readonly(
           "sequence", [](const Scene& self) { return Sequence(self.sequence); }, "A copy.")
       .def_property_readonly(

@@ -147,8 +147,14 @@ void bind_files(py::module_& module) {
   file.def("start_state", [](const SequenceFile& self) { return self.start_state(); });
   def(module, "read_sequence", &read_sequence, py::arg("path"),
       py::arg("allowed") = std::vector<std::string>{}, py::call_guard<py::gil_scoped_release>());
-  def(module, "write_sequence", &write_sequence, py::arg("path"), py::arg("file"),
-      py::call_guard<py::gil_scoped_release>());
+  def(
+      module, "write_sequence",
+      [](const std::string& path, const SequenceFile& file) {
+        const SequenceFile as_it_is = file;  // others may change theirs meanwhile
+        py::gil_scoped_release others_go_on;
+        write_sequence(path, as_it_is);
+      },
+      py::arg("path"), py::arg("file"));
 }
 
 void require_phase(const Execution& execution, double phase) {
@@ -302,8 +308,10 @@ void bind_rollout(py::module_& module) {
         const Sample from =
             start ? start->of(static_cast<int>(sequence.coordinates().size()), "start")
                   : sequence.start_state();
+        const Sequence as_it_is = sequence;
+        const JoinSettings joined = join.value;
         py::gil_scoped_release others_go_on;
-        return rollout(sequence, join.value, from, settings);
+        return rollout(as_it_is, joined, from, settings);
       },
       doc("rollout"), py::arg("sequence"), py::arg("join") = "dmp3", py::arg("start") = py::none(),
       py::kw_only(), py::arg("dt") = 1e-3, py::arg("settle") = 1.0, py::arg("duration") = 0.0,
