@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "tests/refusals.hpp"
 #include "tests/support.hpp"
+#include <seam/error.hpp>
 #include <seam/rollout.hpp>
 
 namespace seam {

@@ -110,11 +110,14 @@ void bind_sequence(py::module_& module) {
           "then",
           [](Sequence& self, const Primitive& primitive, const std::optional<Switch>& until,
              const std::optional<Entry>& enter) -> Sequence& {
-            Sequence next = self;  // all of it or nothing
-            next.then(primitive);
-            if (until) next.until(*until);
-            if (enter) next.enter(*enter);
-            return self = std::move(next);
+            Sequence alone;  // refuses what will not do before anything is changed
+            alone.then(primitive);
+            if (until) alone.until(*until);
+            if (enter) alone.enter(*enter);
+            self.then(primitive);
+            if (until) self.until(*until);
+            if (enter) self.enter(*enter);
+            return self;
           },
           py::arg("primitive"), py::arg("until") = py::none(), py::arg("enter") = py::none(),
           itself)
