@@ -68,8 +68,8 @@ def argument(text):
     if name == "self":
         return "self"
     kind = argument_type(kind)
-    if name in ("path", "urdf_path"):
-        kind = "str"
+    if kind == "os.PathLike":
+        kind = "typing.Union[str, os.PathLike[str]]"
     if default == "None" and not kind.startswith("typing.Optional"):
         kind = f"typing.Optional[{kind}]"
     return f"{name}: {kind}" + (" = ..." if default else "")
@@ -153,7 +153,7 @@ def enumeration(name, cls, indent):
     for value in cls.__members__:
         text += f"{inner}{value}: typing.ClassVar[{cls.__qualname__}]\n"
     text += f"{inner}__members__: typing.ClassVar[typing.Dict[str, {cls.__qualname__}]]\n"
-    text += f"{inner}def __init__(self, value: int) -> None: ...\n"
+    text += f"{inner}def __init__(self, value: typing.Union[int, str]) -> None: ...\n"
     text += f"{inner}def __int__(self) -> int: ...\n{inner}def __index__(self) -> int: ...\n"
     text += f"{inner}@property\n{inner}def name(self) -> str: ...\n"
     return text + f"{inner}@property\n{inner}def value(self) -> int: ...\n"

@@ -72,6 +72,41 @@ class TestDemonstration:
         assert again.coordinates == demo.coordinates
 
 
+    def test_a_frame_brings_its_derivatives(self):
+        demo = demonstration()
+        again = seam.Demonstration(demo.to_pandas())
+        assert again.coordinates == demo.coordinates
+        np.testing.assert_array_equal(again.velocity, demo.velocity)
+        np.testing.assert_array_equal(again.acceleration, demo.acceleration)
+
+    def test_takes_a_column_alone_and_no_mask(self):
+        frame = demonstration().to_pandas()
+        np.testing.assert_array_equal(seam.Demonstration(T, frame["E1"]).position[:, 0], Y[:, 0])
+        with pytest.raises(seam.Error, match="masked"):
+            seam.Demonstration(T, {"a": np.ma.masked_greater(T, 1.0)})
+
+
+def test_enumerations_are_their_names():
+    assert seam.Join.dmp3 == "dmp3" and seam.Join.dmp3 != "dmp2" and seam.Join.dmp3 != seam.Join.dmp2
+    assert seam.Join("dmp2a") == seam.Join.dmp2a == seam.Join(1) and {"dmp3": 1}[seam.Join.dmp3] == 1
+    assert pickle.loads(pickle.dumps(seam.Kind.rhythmic)) == seam.Kind.rhythmic
+    assert seam.Join.dmp2 != seam.Kind.discrete and not seam.Join.dmp2 == 0
+    for wrong in (17, "dmp9", None):
+        with pytest.raises(seam.Error):
+            seam.Join(wrong)
+
+
+def test_numbers_of_numpy_are_numbers():
+    for number in (np.float32(5), np.int64(5), np.array(5.0), 5, True + 4):
+        assert seam.ControlSettings(Kp=number).Kp == 5.0
+
+
+def test_paths_are_paths(tmp_path):
+    one().write(tmp_path / "one.yaml")
+    assert seam.Primitive.read(tmp_path / "one.yaml").coordinates == ("E1",)
+    assert seam.Primitive.read(bytes(tmp_path / "one.yaml")).coordinates == ("E1",)
+
+
 class TestPrimitive:
     def test_has_the_weights_of_least_squares(self):
         demo = demonstration()

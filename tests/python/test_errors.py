@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import seam
-from conftest import movement
+from conftest import PA10, movement
 
 T = np.linspace(0.0, 1.0, 101)
 
@@ -88,6 +88,34 @@ def test_controllers(arm, task, q0):
     refused(lambda: control.tick(1e-3, [None] * 7, zeros), "q", "object")
     for q in (q0.astype(np.float32), q0.astype(">f8"), list(q0), np.repeat(q0, 2)[::2], q0.astype(object).astype(float)):
         assert np.isfinite(control.tick(1e-3, q, np.zeros(7, dtype=int))).all()
+
+
+def test_a_model_that_was_spoiled(task, q0):
+    def spoiled(change):
+        model = seam.RobotModel.read(PA10)
+        change(model)
+        return lambda: seam.ArmController(model, task, q=q0)
+
+    def inertia(model):
+        model.bodies[3].inertial.mass = np.nan
+
+    def axis(model):
+        model.joints[2].axis = [0, 0, 0]
+
+    def damping(model):
+        model.joints[1].damping = -1.0
+
+    refused(spoiled(inertia), '"E1"', "mass")
+    refused(spoiled(axis), '"S3"', "axis")
+    refused(spoiled(damping), '"S2"', "damping")
+
+
+def test_what_may_not_be_guessed(arm, task, q0):
+    refused(lambda: seam.ArmController(arm, task), "needs q", error=TypeError)
+    refused(lambda: seam.ArmController(arm, task, q=q0).set_gravity([np.nan] * 3), "gravity")
+    refused(lambda: seam.describe(seam.Incident(cause="deviation"), arm), "joint -1")
+    refused(lambda: seam.learn(movement({"a": 0}, {"a": 1}), __class__=seam.Primitive), "__class__", error=TypeError)
+    refused(lambda: seam.learn(movement({"a": 0}, {"a": 1}), kind=None), "LearnSettings.kind", error=TypeError)
 
 
 def test_unaligned_arrays_are_read(arm, task, q0):

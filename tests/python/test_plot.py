@@ -38,7 +38,7 @@ def test_shows_position_velocity_acceleration_and_torque(run, tmp_path):
 
 def test_compares_runs_around_a_join(run):
     other = seam.play("line", method="dmp3", dt=2e-3)
-    figure = seam.plot({"dmp2": run, "dmp3": other}, around=1, within=0.1)
+    figure = seam.plot({"dmp2": run, "dmp3": other}, join=1, within=0.1)
     assert [len(lines(axis)) for axis in figure.axes] == [2, 2, 2, 2]
     assert figure.axes[3].get_xlim() == pytest.approx((run.joins[1].time - 0.1, run.joins[1].time + 0.1))
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["dmp2", "dmp3"]

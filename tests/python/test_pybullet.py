@@ -103,7 +103,7 @@ def test_tracks_at_round_off(p, dt):
 def test_without_what_attach_does_it_would_not_track(p):
     body = load(p, PA10)
     model = seam.RobotModel.read(PA10, leave_out_missing_meshes=True)
-    arm = seam.ArmController(model, task(PA10_TASK), "dmp3")
+    arm = seam.ArmController(model, task(PA10_TASK), "dmp3", q=model.neutral())
     index = [index_of(p, body)[joint.name] for joint in model.joints]
     worst = 0.0
     for _ in range(240):

@@ -25,6 +25,8 @@ def test_columns_are_found_by_name_and_by_number():
     np.testing.assert_array_equal(run.torque["b"], run.torque[:, 1])
     np.testing.assert_array_equal((2 * run.torque)[:, 0], 2 * np.sin(T))
     assert type(2 * run.torque) is np.ndarray and type(run.torque.max()) is np.float64
+    assert run.torque.copy()["b"][0] == run.torque["b"][0]
+    assert run.torque[["b", "a"]]["a"][5] == run.torque["a"][5]
     with pytest.raises(KeyError, match='no column "c", there are a, b'):
         run.torque["c"]
     with pytest.raises(ValueError, match="read-only"):

@@ -204,8 +204,10 @@ void Recording::validate() const {
   require("running", running, 1);
   require("ref", ref, n), require("ref_vel", ref_vel, n), require("ref_acc", ref_acc, n);
   require("q", q, n), require("qd", qd, n), require("torque", torque, n);
-  require("tool_ref", tool_ref, D), require("tool_vel", tool_vel, D);
-  require("tool_acc", tool_acc, D);
+  if (in_task_space()) {
+    require("tool_ref", tool_ref, D), require("tool_vel", tool_vel, D);
+    require("tool_acc", tool_acc, D);
+  }
   require("tool_error_m", tool_error_m, 1), require("tool_error_rad", tool_error_rad, 1);
   for (const Signal& signal : signals) require(signal.name, signal.values, 1);
   if (effort.size() != 0 && effort.size() != n)

@@ -1,6 +1,6 @@
 """From numpy arrays to a primitive, a file, and a movement that goes elsewhere and faster.
 
-    python3 02_own_demonstration.py
+    python3 02_own_demonstration.py       # writes hand.yaml
 """
 
 import numpy as np

@@ -16,5 +16,5 @@ for method, run in runs.items():
     metrics = seam.measure(run, dmp2=runs["dmp2"])
     print(f"{method:6} {metrics.torque_jump_nm:19.3f} {metrics.deviation_peak_rad:27.4f}")
 
-figure = seam.plot(runs, around=1, within=0.35)  # around the second join: the first is the start
+figure = seam.plot(runs, join=1, within=0.35)  # join 0 is the start
 figure.savefig("four_methods.png", dpi=120)

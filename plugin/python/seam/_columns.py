@@ -16,11 +16,18 @@ class Columns(_Numbers):
     names: Tuple[str, ...] = ()
 
     def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, list) and key and all(isinstance(name, str) for name in key):
+            return named(numpy.column_stack([self[name] for name in key]), key)
         if not isinstance(key, str):
             return self.view(numpy.ndarray)[key]
         if key not in self.names:
             raise KeyError(f'no column "{key}", there are {", ".join(self.names) or "none"}')
         return self.view(numpy.ndarray)[:, self.names.index(key)]
+
+    def __array_finalize__(self, other: Any) -> None:
+        """Copies have the names; what has other columns has none."""
+        names = getattr(other, "names", ())
+        self.names = names if self.ndim == 2 and self.shape[1] == len(names) else ()
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
         """What is computed of them is an array like any other."""

@@ -1,6 +1,6 @@
 """Recordings as frames of pandas, and as pictures."""
 
-from typing import Any, Iterator, List, Optional, Tuple, Union
+from typing import Any, Iterator, List, Optional, Tuple
 
 import numpy
 
@@ -74,16 +74,18 @@ def plot(
     *runs: Any,
     of: Optional[str] = None,
     labels: Optional[List[str]] = None,
-    around: Union[int, float, None] = None,
+    around: Optional[float] = None,
+    join: Optional[int] = None,
     within: float = 0.3,
 ) -> Any:
-    """Position, velocity, acceleration and torque over time, in four plots below each other, the joins marked.
+    """Position, velocity, acceleration and torque over time, in four stacked plots, the joins marked.
 
     Args:
         runs: Recordings, to be compared; or one dict of labels and Recordings
         of: joint or coordinate; None: the joint whose acceleration steps most at a join
         labels: a name for each run, for the legend
-        around: time [s] to look at closely, or the index of a join; None: all of it
+        around: time [s] to look at closely; None: all of it
+        join: the same for a join, by its index in the first recording's `joins`; 0 is the start
         within: [s] to either side of it
 
     Returns:
@@ -108,13 +110,15 @@ def plot(
     for index, (run, parts) in enumerate(zip(runs, signals)):
         for axis, (_, values) in zip(axes[:, 0], parts):
             axis.plot(run.time, values, linewidth=1.2, label=labels[index] if labels else None)
-    if isinstance(around, int):
-        around = runs[0].joins[around].time
+    if join is not None:
+        if not -len(runs[0].joins) <= join < len(runs[0].joins):
+            raise IndexError(f"plot: join {join}, the recording has {len(runs[0].joins)}")
+        around = runs[0].joins[join].time
     for axis, title in zip(axes[:, 0], titles):
         axis.set_ylabel(title)
         axis.grid(alpha=0.3)
-        for join in runs[0].joins:
-            axis.axvline(join.time, color="0.5", linewidth=0.8, linestyle="--")
+        for change in runs[0].joins:
+            axis.axvline(change.time, color="0.5", linewidth=0.8, linestyle="--")
         if around is not None:
             _look_closely(axis, around - within, around + within)
     axes[-1, 0].set_xlabel("time [s]")

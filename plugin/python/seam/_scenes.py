@@ -37,7 +37,7 @@ def asset(path: str) -> str:
 
 def play(
     scene: "Union[str, os.PathLike[str], _seam.Scene]",
-    method: Union[_seam.Join, _seam.JoinSettings, str, None] = None,
+    method: Union[_seam.Join, str, None] = None,
     dt: Optional[float] = None,
     *,
     set: Optional[Mapping[str, Any]] = None,

@@ -68,7 +68,8 @@ def attach(body, task, join="dmp3", *, client=None, urdf=None, model=None, setti
     differ from the model's by more than 1e-6; the URDF is not found; PyBullet steps by itself (setRealTimeSimulation); the
     client is not connected; and whatever seam.RobotModel.read and seam.ArmController refuse.
     """
-    return Control(_Client(client, body), task, join, urdf, model, settings, joint_damping, inertia, list(package_path))
+    return Control(_Client(client, body), task, join, urdf, model, settings, joint_damping, inertia,
+                   [package_path] if isinstance(package_path, (str, os.PathLike)) else list(package_path))
 
 
 class Control:

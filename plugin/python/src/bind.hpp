@@ -37,6 +37,11 @@ struct TupleOf {
 
 /// What an attribute of a class is called in messages.
 std::string attribute_name(py::handle type, const std::string& attribute);
+/// Lets an enumeration's values be compared with their names, and be made of names and numbers that there are.
+void give_names(py::object enumeration);
+/// That of an enumeration by its name or number.
+/// @throws Error  no such one (lists those there are)
+py::object value_of(py::handle enumeration, const py::object& value);
 /// That of an enumeration by its name.
 /// @throws Error  no such one (lists those there are)
 py::object member(py::handle enumeration, py::handle name);
@@ -112,7 +117,13 @@ template <typename E>
 class Enum {
  public:
   Enum(py::handle scope, const char* name, const std::string& cpp_name)
-      : cpp_name_(cpp_name), enum_(scope, name, doc(cpp_name)) {}
+      : cpp_name_(cpp_name), enum_(scope, name, doc(cpp_name)) {
+    give_names(enum_);
+    enum_.def(py::init([](const py::object& value) {
+                return value_of(py::type::of<E>(), value).template cast<E>();
+              }),
+              py::arg("value"));
+  }
   Enum& value(const char* name, E value) {
     enum_.value(name, value, doc(cpp_name_ + "::" + name));
     return *this;
@@ -151,11 +162,12 @@ void assign(T& to, py::handle from, const std::string& name) {
                                 std::to_string(to.rows()) + ", " + std::to_string(to.cols()) + ")");
       to = values;
     }
-  } else if constexpr (std::is_enum_v<T>) {
-    to = from.cast<Named<T>>().value;
   } else {
     try {
-      to = from.cast<T>();
+      if constexpr (std::is_enum_v<T>)
+        to = from.cast<Named<T>>().value;
+      else
+        to = from.cast<T>();
     } catch (const py::cast_error&) {
       throw py::type_error(name + " cannot be " + py::repr(from).cast<std::string>() + " (" +
                            Py_TYPE(from.ptr())->tp_name + ")");

@@ -55,9 +55,11 @@ void bind_controller(py::module_& module) {
             const ArmControllerSettings& settings, const std::optional<Numbers>& q,
             const std::optional<Numbers>& qd) {
            const int n = model.dof();
-           const Eigen::VectorXd at = q ? q->vector("q", n) : model.neutral();
+           if (!q) throw py::type_error("ArmController: needs q, where the joints are now");
+           const Eigen::VectorXd at = q->vector("q", n);
            const Eigen::VectorXd moving = qd ? qd->vector("qd", n) : Eigen::VectorXd::Zero(n);
-           return Arm{ArmController(model, sequence, join.value, settings, at, moving), at, moving};
+           return Arm{ArmController(sound(model), sequence, join.value, settings, at, moving), at,
+                      moving};
          },
          py::arg("model"), py::arg("sequence"), py::arg("join") = "dmp3",
          py::arg_v("settings", ArmControllerSettings{}, "ArmControllerSettings()"),
@@ -65,7 +67,8 @@ void bind_controller(py::module_& module) {
       .def(
           "set_gravity",
           [](Arm& self, const Numbers& gravity) {
-            self.control.set_gravity(gravity.vector("gravity_in_base", 3));
+            self.control.set_gravity(
+                finite(gravity.vector("gravity_in_base", 3), "gravity_in_base"));
           },
           py::arg("gravity_in_base"))
       .def(

@@ -27,12 +27,13 @@ double require_tick(double dt) {
 
 void bind_inverse_dynamics(py::module_& module) {
   Class<InverseDynamics> dynamics(module, "InverseDynamics");
-  dynamics.init([](const RobotModel& model) { return InverseDynamics(model); }, py::arg("model"))
+  dynamics
+      .init([](const RobotModel& model) { return InverseDynamics(sound(model)); }, py::arg("model"))
       .property("dof", &InverseDynamics::dof)
       .def(
           "set_gravity",
           [](InverseDynamics& self, const Numbers& gravity) {
-            self.set_gravity(gravity.vector("gravity_in_base", 3));
+            self.set_gravity(finite(gravity.vector("gravity_in_base", 3), "gravity_in_base"));
           },
           py::arg("gravity_in_base"))
       .def(
@@ -88,7 +89,7 @@ void bind_law(py::module_& module) {
   const auto n = [](const ComputedTorque& self) { return self.velocity().size(); };
   law.init(
          [](const RobotModel& model, const ControlSettings& control, const Numbers& posture) {
-           return ComputedTorque(model, control, posture.vector("posture", model.dof()));
+           return ComputedTorque(sound(model), control, posture.vector("posture", model.dof()));
          },
          py::arg("model"), py::arg("settings"), py::arg("posture"))
       .def(
@@ -112,7 +113,7 @@ void bind_law(py::module_& module) {
       .def(
           "set_gravity",
           [](ComputedTorque& self, const Numbers& gravity) {
-            self.set_gravity(gravity.vector("gravity", 3));
+            self.set_gravity(finite(gravity.vector("gravity", 3), "gravity"));
           },
           py::arg("gravity"))
       .def(
@@ -228,7 +229,10 @@ void bind_guard(py::module_& module) {
   def(
       module, "describe",
       [](const Incident& what, const RobotModel& robot) {
-        if (what.joint >= robot.dof())
+        using Cause = Incident::Cause;
+        const bool of_joint = what.cause == Cause::deviation || what.cause == Cause::goal ||
+                              what.cause == Cause::joint_limit;
+        if (what.joint >= robot.dof() || (of_joint && what.joint < 0))
           throw Error("incident", "joint " + std::to_string(what.joint) + ", the robot has " +
                                       std::to_string(robot.dof()));
         return describe(what, robot);

@@ -18,7 +18,7 @@ void bind_forward(py::module_& module) {
       .init(
           [](const RobotModel& model, const std::string& link,
              const Eigen::Isometry3d& X_link_tool) {
-            Kinematics made(model, link, X_link_tool);
+            Kinematics made(sound(model), link, X_link_tool);
             made.move_to(model.neutral());
             return made;
           },
@@ -101,15 +101,14 @@ void bind_inverse(py::module_& module) {
               throw Error("kinematics", "of " + std::to_string(kinematics.dof()) +
                                             " joints, the model has " +
                                             std::to_string(model.dof()));
-            InverseKinematics made(model, kinematics, posture);
+            InverseKinematics made(sound(model), kinematics, posture);
             made.start(model.neutral());
             return made;
           },
           py::arg("model"), py::arg("kinematics"),
           py::arg_v("posture", PostureSettings{}, "PostureSettings()"))
       .property("dof", &InverseKinematics::dof)
-      .def("reach", &InverseKinematics::reach, py::arg("pose"),
-           py::call_guard<py::gil_scoped_release>())
+      .def("reach", &InverseKinematics::reach, py::arg("pose"))
       .def(
           "start",
           [](InverseKinematics& self, const Numbers& q) { self.start(q.vector("q", self.dof())); },
@@ -237,7 +236,7 @@ void bind_spaces(py::module_& module) {
       .def(
           "reach",
           [](Tool& self, const Eigen::Isometry3d& pose) { return self.reference->reach(pose); },
-          py::arg("pose"), py::call_guard<py::gil_scoped_release>())
+          py::arg("pose"))
       .def(
           "pose",
           [](const Tool& self, const Numbers& position) {

@@ -15,7 +15,7 @@ LearnSettings with(const LearnSettings& settings, const py::kwargs& changes) {
   LearnSettings changed = settings;
   const py::object view = py::cast(&changed, py::return_value_policy::reference);
   for (const auto& [name, value] : changes) {
-    if (!py::hasattr(view, name))
+    if (!py::type::of<LearnSettings>().attr("_fields").contains(name))
       throw py::type_error("learn: LearnSettings has no " + name.cast<std::string>());
     py::setattr(view, name, value);
   }

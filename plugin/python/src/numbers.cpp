@@ -12,6 +12,9 @@ std::string shape_of(const py::array& array) {
 }
 
 py::array_t<double> array_of(const Numbers& numbers, const std::string& name) {
+  if (py::hasattr(numbers.given, "mask") &&
+      py::module_::import("numpy.ma").attr("is_masked")(numbers.given).cast<bool>())
+    throw Error(name, "has values that are masked");
   const py::array any = py::array::ensure(numbers.given);
   if (!any) PyErr_Clear();
   if (!any || std::string("biuf").find(any.dtype().kind()) == std::string::npos)
@@ -54,8 +57,10 @@ Eigen::MatrixXd Numbers::matrix(const std::string& name) const {
 
 void Numbers::copy_to(Eigen::VectorXd& values, const char* name) const {
   const auto* array = py::detail::array_proxy(given.ptr());
-  const bool is_ready = py::isinstance<py::array>(given) && array->descr == float64().ptr() &&
-                        array->nd == 1 && array->dimensions[0] == values.size();
+  const bool is_plain = reinterpret_cast<PyObject*>(Py_TYPE(given.ptr())) ==
+                        reinterpret_cast<PyObject*>(py::detail::npy_api::get().PyArray_Type_);
+  const bool is_ready = is_plain && array->descr == float64().ptr() && array->nd == 1 &&
+                        array->dimensions[0] == values.size();
   if (!is_ready) {
     values = vector(name, values.size());
     return;

@@ -16,6 +16,13 @@ namespace seam::python {
 
 namespace py = pybind11;
 
+/// A file's path: a str, or anything that has one (pathlib).
+struct Path {
+  std::string value;
+
+  operator const std::string&() const { return value; }  // NOLINT(google-explicit-constructor)
+};
+
 /// Whatever numpy makes an array of numbers of: an array, a list, a column of pandas.
 struct Numbers {
   py::object given;
@@ -72,6 +79,24 @@ struct type_caster<seam::python::Numbers> {
 };
 
 template <>
+struct type_caster<seam::python::Path> {
+  PYBIND11_TYPE_CASTER(seam::python::Path, const_name("os.PathLike"));
+  bool load(handle from, bool) {
+    object path = reinterpret_steal<object>(PyOS_FSPath(from.ptr()));
+    if (path && isinstance<bytes>(path))
+      path = reinterpret_steal<object>(PyUnicode_DecodeFSDefault(PyBytes_AsString(path.ptr())));
+    const object encoded =
+        path ? reinterpret_steal<object>(PyUnicode_EncodeFSDefault(path.ptr())) : object();
+    if (!encoded) {
+      PyErr_Clear();
+      return false;
+    }
+    value.value = encoded.cast<std::string>();
+    return true;
+  }
+};
+
+template <>
 struct type_caster<Eigen::Quaterniond> {
   PYBIND11_TYPE_CASTER(Eigen::Quaterniond, const_name("numpy.ndarray[numpy.float64[4, 1]]"));
   bool load(handle from, bool) {
@@ -101,8 +126,11 @@ struct type_caster<seam::PerJoint> {
                        const_name("Union[float, numpy.ndarray[numpy.float64[m, 1]]]"));
   type_caster() : value(0.0) {}
   bool load(handle from, bool) {
-    if (PyFloat_Check(from.ptr()) || PyLong_Check(from.ptr()))
-      value = seam::PerJoint(from.cast<double>());
+    const array given = array::ensure(from);
+    if (!given) PyErr_Clear();
+    if (given && given.ndim() == 0 &&
+        std::string("biuf").find(given.dtype().kind()) != std::string::npos)
+      value = seam::PerJoint(given.attr("item")().cast<double>());
     else
       value = seam::PerJoint(
           seam::python::Numbers{reinterpret_borrow<object>(from)}.vector("value per joint"));

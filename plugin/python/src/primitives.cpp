@@ -34,7 +34,7 @@ Columns columns_of(const py::object& table, Eigen::Index rows, const std::string
 }
 
 bool has_columns(const py::object& given) {
-  return py::hasattr(given, "keys");
+  return py::isinstance<py::dict>(given) || py::hasattr(given, "columns");
 }
 
 // Values of known columns, from an array or by name.
@@ -50,6 +50,25 @@ Eigen::MatrixXd values_of(const py::object& given, const Names& names, Eigen::In
         Numbers{given[key]}.vector(place + " " + names[i], rows);
   }
   return values;
+}
+
+// Takes the columns PREFIX.COORDINATE out, in the order of the coordinates; none where there are none.
+py::object take(const std::string& prefix, Columns& columns) {
+  Names names;
+  std::vector<Eigen::Index> kept;
+  py::dict taken;
+  for (std::size_t i = 0; i < columns.names.size(); ++i) {
+    const std::string& name = columns.names[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    if (name.rfind(prefix, 0) == 0) {
+      taken[name.substr(prefix.size()).c_str()] = Eigen::VectorXd(columns.values.col(column));
+      continue;
+    }
+    names.push_back(name);
+    kept.push_back(column);
+  }
+  columns = {names, Eigen::MatrixXd(columns.values(Eigen::all, kept))};
+  return taken.empty() ? py::object(py::none()) : py::object(taken);
 }
 
 Names numbered(Eigen::Index count) {
@@ -76,8 +95,7 @@ void require_shape(const Eigen::MatrixXd& values, const Demonstration& demo, con
 }
 
 Demonstration demonstration(const py::object& first, const py::object& position,
-                            const Names& coordinates, const py::object& velocity,
-                            const py::object& acceleration,
+                            const Names& coordinates, py::object velocity, py::object acceleration,
                             const std::optional<Eigen::Quaterniond>& reference, double cutoff,
                             const std::string& source) {
   const bool frame = position.is_none() && py::hasattr(first, "columns");
@@ -90,6 +108,11 @@ Demonstration demonstration(const py::object& first, const py::object& position,
     columns = columns_of(table, time.size(), "position");
   else
     columns.values = values_of(table, coordinates, time.size(), "position");
+  if (frame) {  // as in a CSV file
+    const py::object own_velocity = take("vel.", columns), own_acceleration = take("acc.", columns);
+    if (velocity.is_none()) velocity = own_velocity;
+    if (acceleration.is_none()) acceleration = own_acceleration;
+  }
   if (columns.names.empty()) columns.names = numbered(columns.values.cols());
 
   if (velocity.is_none() && acceleration.is_none()) {
@@ -126,9 +149,13 @@ void bind_demonstration(py::module_& module) {
       .field("cutoff", &DerivativeSettings::cutoff)
       .made_of_fields();
   Class<Demonstration> demo(module, "Demonstration");
-  demo.def_static("read", &Demonstration::read, py::arg("path"),
-                  py::arg_v("settings", DerivativeSettings{}, "DerivativeSettings()"),
-                  py::call_guard<py::gil_scoped_release>());
+  demo.def_static(
+      "read",
+      [](const Path& path, const DerivativeSettings& settings) {
+        return Demonstration::read(path, settings);
+      },
+      py::arg("path"), py::arg_v("settings", DerivativeSettings{}, "DerivativeSettings()"),
+      py::call_guard<py::gil_scoped_release>());
   (*demo).def(py::init(&demonstration), py::arg("time"), py::arg("position") = py::none(),
               py::arg("coordinates") = Names{}, py::arg("velocity") = py::none(),
               py::arg("acceleration") = py::none(), py::arg("reference_orientation") = py::none(),
@@ -154,13 +181,15 @@ void bind_demonstration(py::module_& module) {
                               d.source, d.reference_orientation);
       },
       [](const py::tuple& state) {
-        return Demonstration{state[0].cast<Names>(),
-                             state[1].cast<Eigen::VectorXd>(),
-                             state[2].cast<Eigen::MatrixXd>(),
-                             state[3].cast<Eigen::MatrixXd>(),
-                             state[4].cast<Eigen::MatrixXd>(),
-                             state[5].cast<std::string>(),
-                             state[6].cast<std::optional<Eigen::Quaterniond>>()};
+        Demonstration made{state[0].cast<Names>(),
+                           state[1].cast<Eigen::VectorXd>(),
+                           state[2].cast<Eigen::MatrixXd>(),
+                           state[3].cast<Eigen::MatrixXd>(),
+                           state[4].cast<Eigen::MatrixXd>(),
+                           state[5].cast<std::string>(),
+                           state[6].cast<std::optional<Eigen::Quaterniond>>()};
+        made.validate();
+        return made;
       }));
   demo.property("coordinates",
                 [](const Demonstration& d) {
@@ -238,13 +267,21 @@ void bind_primitive(py::module_& module) {
   primitive.property("dimensions", &Primitive::dimensions)
       .def("at_speed", &Primitive::at_speed, py::arg("factor"))
       .def("validate", &Primitive::validate);
-  (*primitive).def_static("read", &read_primitive, doc("read_primitive"), py::arg("path"));
+  (*primitive)
+      .def_static(
+          "read", [](const Path& path) { return read_primitive(path); }, doc("read_primitive"),
+          py::arg("path"));
   (*primitive)
       .def(
-          "write", [](const Primitive& p, const std::string& path) { write_primitive(path, p); },
+          "write", [](const Primitive& p, const Path& path) { write_primitive(path, p); },
           doc("write_primitive"), py::arg("path"));
-  def(module, "read_primitive", &read_primitive, py::arg("path"));
-  def(module, "write_primitive", &write_primitive, py::arg("path"), py::arg("primitive"));
+  def(
+      module, "read_primitive", [](const Path& path) { return read_primitive(path); },
+      py::arg("path"));
+  def(
+      module, "write_primitive",
+      [](const Path& path, const Primitive& p) { write_primitive(path, p); }, py::arg("path"),
+      py::arg("primitive"));
 }
 
 void bind_basis(py::module_& module) {
@@ -303,7 +340,6 @@ void bind_orientation(py::module_& module) {
         return orientation(Eigen::Vector3d(vector.vector("vector", 3)), q0);
       },
       py::arg("vector"), py::arg("q0"));
-  const char* pair = "\n\nIn Python: gives (True or False as above, the state).";
   module.def(
       "to_orientation",
       [](const RotationState& from, const Quaternion& q0) {
@@ -311,7 +347,10 @@ void bind_orientation(py::module_& module) {
         const bool within = to_orientation(from, q0, to);
         return std::pair(within, to);
       },
-      (std::string(doc("to_orientation")) + pair).c_str(), py::arg("state"), py::arg("q0"));
+      "(within, state): q = exp(ρ)·q0, ω = J(ρ)ρ̇, ω̇ = J(ρ)ρ̈ + J̇ρ̇ with the left Jacobian of SO(3), "
+      "for a RotationState.\n\nReturns:\n    (bool, OrientationState): False where the state is "
+      "not finite, or beyond π of q0 (the state is then still right)",
+      py::arg("state"), py::arg("q0"));
   module.def(
       "to_rotation",
       [](const OrientationState& from, const Quaternion& q0, const Numbers& near) {
@@ -320,8 +359,11 @@ void bind_orientation(py::module_& module) {
         const bool within = to_rotation(from, q0, to);
         return std::pair(within, to);
       },
-      (std::string(doc("to_rotation")) + pair).c_str(), py::arg("state"), py::arg("q0"),
-      py::arg("near") = std::vector<double>(3, 0.0));
+      "The inverse of to_orientation, for an OrientationState: of the two vectors of q·q0⁻¹ that "
+      "which is nearer to `near` (3,) [rad]; the last "
+      "tick's vector follows a motion across π.\n\nReturns:\n    (bool, RotationState): False "
+      "where the state is not finite, or beyond π of q0 (the state is then still right, up to 2π)",
+      py::arg("state"), py::arg("q0"), py::arg("near") = std::vector<double>(3, 0.0));
   def(module, "has_orientation", &has_orientation, py::arg("demo"));
   def(module, "first_orientation", &first_orientation, py::arg("demo"));
   def(module, "with_rotation_vector", &with_rotation_vector, py::arg("demo"), py::arg("q0"),

@@ -52,7 +52,7 @@ std::function<void(Recording&, py::handle)> set_by_name(std::vector<Item> Record
     for (const auto& [key, value] :
          py::reinterpret_borrow<py::dict>(py::dict(py::reinterpret_borrow<py::object>(given)))) {
       Item item;
-      item.name = py::cast<std::string>(key);
+      item.name = py::str(key).template cast<std::string>();
       assign(item.*Value::member, value, "Recording " + item.name);
       (recording.*list).push_back(std::move(item));
     }
@@ -138,9 +138,12 @@ void bind_recording(py::module_& module) {
           py::arg("joint"))
       .property("in_task_space", &Recording::in_task_space)
       .def("validate", &Recording::validate)
-      .def_static("read", &Recording::read, py::arg("path"),
-                  py::call_guard<py::gil_scoped_release>())
-      .def("write", &Recording::write, py::arg("path"), py::call_guard<py::gil_scoped_release>());
+      .def_static(
+          "read", [](const Path& path) { return Recording::read(path); }, py::arg("path"),
+          py::call_guard<py::gil_scoped_release>())
+      .def(
+          "write", [](const Recording& self, const Path& path) { self.write(path); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>());
   (*recording).def("to_pandas", &to_pandas, to_pandas_doc);
   (*recording).def("__repr__", [](const Recording& self) {
     const auto counted = [](std::size_t count, const char* what) {

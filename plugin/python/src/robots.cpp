@@ -1,6 +1,7 @@
 // A robot as a model.
 #include "plugin/python/src/bind.hpp"
 #include "plugin/python/src/parts.hpp"
+#include "plugin/python/src/states.hpp"
 #include <seam/robot_model.hpp>
 
 namespace seam::python {
@@ -125,8 +126,7 @@ void bind_model(py::module_& module) {
           py::arg("q"))
       .def_static(
           "read",
-          [](const std::string& path, const std::vector<std::string>& package_path,
-             bool leave_out) {
+          [](const Path& path, const std::vector<std::string>& package_path, bool leave_out) {
             return RobotModel::read(path, UrdfSettings{package_path, leave_out});
           },
           py::arg("urdf_path"), py::arg("package_path") = std::vector<std::string>{},
@@ -140,6 +140,28 @@ void bind_model(py::module_& module) {
 }
 
 }  // namespace
+
+const RobotModel& sound(const RobotModel& model) {
+  constexpr double rounding = 1e-6;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const Inertial& body = model.bodies[i].inertial;
+    const auto require = [&](bool is_good, const char* what) {
+      if (!is_good) throw Error(model.name, "joint \"" + joint.name + "\": " + what);
+    };
+    const auto not_negative = [](double value) { return value >= 0.0 && std::isfinite(value); };
+    require(std::abs(joint.axis.norm() - 1.0) < rounding, "its axis must have length 1");
+    require(std::isfinite(body.mass) && body.com.allFinite() && body.inertia.allFinite(),
+            "mass, centre of mass and inertia of its body must be finite");
+    require(not_negative(joint.damping) && not_negative(joint.friction) &&
+                not_negative(joint.rotor_inertia) && not_negative(joint.spring_damping),
+            "damping, friction, rotor_inertia and spring_damping must be >= 0");
+    require(joint.stiffness > 0.0 && joint.effort >= 0.0, "stiffness must be > 0, effort >= 0");
+    require(std::isfinite(joint.multiplier) && std::isfinite(joint.offset),
+            "multiplier and offset must be finite");
+  }
+  return model;
+}
 
 void bind_robots(py::module_& module) {
   bind_parts(module);

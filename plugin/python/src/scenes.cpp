@@ -40,7 +40,7 @@ void bind_scenes(py::module_& module) {
                     "A scene file, read and learned: all that a run needs but the joining method.")
       .def_static(
           "read",
-          [](const std::string& scene, const std::vector<std::string>& overrides,
+          [](const Path& scene, const std::vector<std::string>& overrides,
              const std::vector<std::string>& allowed) {
             return Scene::read(scene_file(scene), overrides, with_own_folders(allowed));
           },
@@ -90,9 +90,9 @@ void bind_scenes(py::module_& module) {
 
   module.def(
       "_play",
-      [](const Scene& scene, const JoinChoice& method, double dt) {
+      [](const Scene& scene, const Named<Join>& method, double dt) {
         py::gil_scoped_release others_go_on;
-        return play(scene, method.value.method, dt);
+        return play(scene, method.value, dt);
       },
       py::arg("scene"), py::arg("method"), py::arg("dt"));
   module.def("_scene_files", [] { return scene_files({}); });

@@ -148,12 +148,17 @@ void bind_files(py::module_& module) {
       .field("start", &SequenceFile::start)
       .made_of_fields();
   file.def("start_state", [](const SequenceFile& self) { return self.start_state(); });
-  def(module, "read_sequence", &read_sequence, py::arg("path"),
-      py::arg("allowed") = std::vector<std::string>{}, py::call_guard<py::gil_scoped_release>());
+  def(
+      module, "read_sequence",
+      [](const Path& path, const std::vector<std::string>& allowed) {
+        return read_sequence(path, allowed);
+      },
+      py::arg("path"), py::arg("allowed") = std::vector<std::string>{},
+      py::call_guard<py::gil_scoped_release>());
   def(
       module, "write_sequence",
-      [](const std::string& path, const SequenceFile& file) {
-        const SequenceFile as_it_is = file;  // others may change theirs meanwhile
+      [](const Path& path, const SequenceFile& content) {
+        const SequenceFile as_it_is = content;  // others may change theirs meanwhile
         py::gil_scoped_release others_go_on;
         write_sequence(path, as_it_is);
       },
@@ -316,8 +321,22 @@ void bind_rollout(py::module_& module) {
         py::gil_scoped_release others_go_on;
         return rollout(as_it_is, joined, from, settings);
       },
-      doc("rollout"), py::arg("sequence"), py::arg("join") = "dmp3", py::arg("start") = py::none(),
-      py::kw_only(), py::arg("dt") = 1e-3, py::arg("settle") = 1.0, py::arg("duration") = 0.0,
+      "Plays a sequence alone, without an arm: what the coordinates do, in rows at k·dt, and the "
+      "joins.\n\nArgs:\n"
+      "    join: how primitives are joined\n"
+      "    start: a Sample, or positions (D,) to begin from at rest; None: where the first "
+      "primitive's demonstration began\n"
+      "    dt: [s] > 0, between rows\n"
+      "    settle: [s] to go on after the last switch has been due\n"
+      "    duration: [s] of it all, whatever has happened by then; 0: until the last switch and "
+      "`settle`\n"
+      "    longest: [s] after which a sequence that has not finished is given up\n\n"
+      "Returns:\n    a Recording: ref, ref_vel, ref_acc of the coordinates, or tool_ref, tool_vel, "
+      "tool_acc of a tool's (x y z, rx ry rz)\n\n"
+      "Raises:\n    Error: what is out of range, more than 2e6 rows, or a sequence that has not "
+      "finished after `longest`",
+      py::arg("sequence"), py::arg("join") = "dmp3", py::arg("start") = py::none(), py::kw_only(),
+      py::arg("dt") = 1e-3, py::arg("settle") = 1.0, py::arg("duration") = 0.0,
       py::arg("longest") = 600.0);
   module.def(
       "rollout",

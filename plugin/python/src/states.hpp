@@ -7,6 +7,7 @@
 #include "plugin/python/src/bind.hpp"
 #include <seam/error.hpp>
 #include <seam/join.hpp>
+#include <seam/robot_model.hpp>
 
 namespace seam::python {
 
@@ -31,6 +32,16 @@ struct Start {
     return sample;
   }
 };
+
+/// A model as it is, unless it was changed to what cannot be simulated.
+/// @throws Error  names the joint or link and the value
+const RobotModel& sound(const RobotModel& model);
+
+/// @throws Error  a value is not finite
+inline Eigen::VectorXd finite(Eigen::VectorXd values, const std::string& name) {
+  if (!values.allFinite()) throw Error(name, "is not finite");
+  return values;
+}
 
 /// @throws Error  it is negative or not finite
 inline double require_step(double dt) {
