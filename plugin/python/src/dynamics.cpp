@@ -286,6 +286,8 @@ void bind_guard(py::module_& module) {
             self.part.keep_within_limits(from.vector("from", self.n), end);
             return end;
           },
+          "The end `to` (n,) [rad or m] of a motion, moved back to a limit that it would pass: a "
+          "new array. What is beyond a limit already may stay there.",
           py::arg("from_"), py::arg("to"));
 
   using SizedOffset = Sized<FadingOffset>;
@@ -323,6 +325,7 @@ void bind_guard(py::module_& module) {
             self.part.add_to(moved);
             return moved;
           },
+          "The reference, a Sample of n joints, with the present offset added: a new Sample.",
           py::arg("reference"));
 }
 

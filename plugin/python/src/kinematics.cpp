@@ -123,9 +123,8 @@ void bind_inverse(py::module_& module) {
         const bool found = status == Status::exact || status == Status::damped;
         return std::pair(status, found ? std::optional(solution) : std::nullopt);
       },
-      (std::string(doc("InverseKinematics::follow")) +
-       "\n\nIn Python: gives (status, solution), without a solution None.")
-          .c_str(),
+      "(status, solution) for the tool's next state, from where it was last; the solution is None "
+      "unless the status is exact or damped.",
       py::arg("target"));
 }
 

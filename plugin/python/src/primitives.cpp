@@ -307,6 +307,8 @@ void bind_basis(py::module_& module) {
             self.regressor(phase, row.data());
             return row;
           },
+          "The regressor a (M,) at a phase: aⱼ(p) = s·ψⱼ(p)/Σψ(p), s = x or 1, so that f = a @ "
+          "weights (Eqs. 2, 9).",
           py::arg("phase"))
       .def(
           "slope",
@@ -316,7 +318,7 @@ void bind_basis(py::module_& module) {
             self.slope(phase, row.data(), slope.data());
             return slope;
           },
-          py::arg("phase"));
+          "da/dp (M,) at a phase.", py::arg("phase"));
 }
 
 void bind_orientation(py::module_& module) {
@@ -332,8 +334,10 @@ void bind_orientation(py::module_& module) {
       .made_of_fields();
   using Quaternion = Eigen::Quaterniond;
   def(module, "rotation_vector",
-      py::overload_cast<const Quaternion&, const Quaternion&>(&rotation_vector), py::arg("q"),
-      py::arg("q0"));
+      py::overload_cast<const Quaternion&, const Quaternion&>(&rotation_vector),
+      "The shorter rotation vector (3,) [rad] of q·q0⁻¹, its length in [0, π]; q and −q give the "
+      "same.\n\nArgs:\n    q, q0: unit quaternions x y z w (4,)",
+      py::arg("q"), py::arg("q0"));
   def(
       module, "orientation",
       [](const Numbers& vector, const Quaternion& q0) {

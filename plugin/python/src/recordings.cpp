@@ -279,7 +279,7 @@ void bind_testing(py::module_& module) {
       .init([](double time) { return TorqueIsContinuousAt(time); }, py::arg("time"))
       .def("within", &TorqueIsContinuousAt::within, py::arg("limit_nm"));
   Class<TorqueIsContinuousAtAllJoins> all(module, "TorqueIsContinuousAtAllJoins");
-  (*all).def(py::init<>());
+  (*all).def(py::init<>(), "The torque of every joint, at every join of the recording.");
   all.def("within", &TorqueIsContinuousAtAllJoins::within, py::arg("limit_nm"));
   Class<AccelerationIsContinuousAt>(module, "AccelerationIsContinuousAt")
       .init([](double time) { return AccelerationIsContinuousAt(time); }, py::arg("time"))

@@ -116,6 +116,8 @@ void bind_model(py::module_& module) {
             self.place_followers(placed);
             return placed;
           },
+          "Joint positions q (n,) [rad or m] with every follower where its leader has it: a new "
+          "array.",
           py::arg("q"))
       .def("neutral", &RobotModel::neutral)
       .def(

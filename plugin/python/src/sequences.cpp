@@ -191,8 +191,14 @@ void bind_execution(py::module_& module) {
             return self.set_goal(goal.vector("goal", self.dimensions()));
           },
           py::arg("goal"))
-      .def("set_tau", &Execution::set_tau, py::arg("tau"))
-      .def("set_amplitude", &Execution::set_amplitude, py::arg("amplitude"))
+      .def("set_tau", &Execution::set_tau,
+           "Time constant tau [s] of what runs now. False, and no change, where nothing runs yet "
+           "or the value will not do.",
+           py::arg("tau"))
+      .def("set_amplitude", &Execution::set_amplitude,
+           "Amplitude of what runs now, a rhythmic primitive; 1 as learned. False, and no change, "
+           "where nothing rhythmic runs or the value will not do.",
+           py::arg("amplitude"))
       .property("sample", [](const Execution& self) { return Sample(self.sample()); })
       .property("state", [](Execution& self) { return Sample(self.state()); })
       .def(
@@ -249,8 +255,14 @@ void bind_sequencer(py::module_& module) {
             return self.set_goal(goal.vector("goal", self.dimensions()));
           },
           py::arg("goal"))
-      .def("set_tau", &Sequencer::set_tau, py::arg("tau"))
-      .def("set_amplitude", &Sequencer::set_amplitude, py::arg("amplitude"))
+      .def("set_tau", &Sequencer::set_tau,
+           "Time constant tau [s] of what runs now. False, and no change, where nothing runs yet "
+           "or the value will not do.",
+           py::arg("tau"))
+      .def("set_amplitude", &Sequencer::set_amplitude,
+           "Amplitude of what runs now, a rhythmic primitive; 1 as learned. False, and no change, "
+           "where nothing rhythmic runs or the value will not do.",
+           py::arg("amplitude"))
       .def("set_rate", &Sequencer::set_rate, py::arg("rate"), py::arg("over"))
       .def(
           "reinitialise",
@@ -286,6 +298,8 @@ void bind_sequencer(py::module_& module) {
                                     std::to_string(self.joins() - 1));
             return JoinEvent(self.join(i));
           },
+          "What happened at a join, a JoinEvent; 0 is the start.\n\nRaises:\n    IndexError: not "
+          "first_join <= i < joins",
           py::arg("i"));
   (*sequencer).attr("kept_joins") = Sequencer::kept_joins;
 
