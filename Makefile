@@ -26,9 +26,9 @@ fuzz: build/fuzzing build/fuzz/build.ninja ## feed the readers with nonsense (li
 format: build/tools ; @clang-format $(if $(FIX),-i,--dry-run -Werror) $(sources) ## check the layout of the C++ sources (FIX=1: put it right)
 tidy: build/tools build/release/build.ninja ; run-clang-tidy -quiet -p build/release '/(plugin|scenes|bench|tests)/.*\.cpp$$' ## check the C++ sources
 micro: build/measuring build/release/build.ninja ## measure the hot paths, each beside something bare, and print their ratios
-	cmake --build --preset release --target seam_micro seam_touched && build/release/bench/seam_micro --out build/micro.md
+	cmake --build --preset release --target seam_micro seam_touched seam_micro_python && build/release/bench/seam_micro --out build/micro.md
 	sh bench/micro/touched.sh build/release/bench/seam_touched >>build/micro.md && tail -n 1 build/micro.md
-	cmake --build --preset release --target seam_micro_python && PYTHONPATH=build/release/python:build/release/bench /usr/bin/python3 bench/micro/python.py --out build/micro_python.md
+	PYTHONPATH=build/release/python:build/release/bench /usr/bin/python3 bench/micro/python.py --append build/micro.md
 docs: build/documenting ; @sh plugin/guide/reference.sh build/docs ## make the reference and the guide: build/docs/html/index.html
 meshes page:                           ## make the arm's meshes, or the report page's template, anew (needs Node.js)
 	cd $(if $(filter page,$@),bench/page,assets/pa10/source) && npm ci && npm run $@

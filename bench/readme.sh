@@ -14,7 +14,6 @@ put table results/overview.md README.md
 awk -f bench/joins.awk $(ls bench/baselines/*.json | grep -v -e -published) >results/joins.md
 put joins results/joins.md plugin/guide/2-choosing-a-join.md
 put micro build/micro.md bench/README.md
-put micro-python build/micro_python.md bench/README.md
 for scene in line pouring wiping carrying catching; do
   cp results/$scene/$scene.png bench/pictures/$scene.png
 done

@@ -1,6 +1,6 @@
 """What seam costs from Python, each beside the same in C++, numpy or PyBullet.
 
-    PYTHONPATH=build/release/python:build/release/bench /usr/bin/python3 bench/micro/python.py [--out FILE] [--strict]
+    PYTHONPATH=build/release/python:build/release/bench /usr/bin/python3 bench/micro/python.py [--append FILE] [--strict]
 
 Both of a pair are measured in turn, A B A B ..., in this thread's time on the processor. `make micro` runs it.
 """
@@ -41,7 +41,7 @@ class Pair:
         """Medians, minima, the median of the ratios; `bar` [s] is for the work's time."""
         ratio = statistics.median(a / b for a, b in zip(self.work, self.beside))
         times = [shown(f(part)) for part in (self.work, self.beside) for f in (statistics.median, min)]
-        return (name, *times, f"{ratio:.2f}", *judged(statistics.median(self.work), bar))
+        return (name, *times, shown_ratio(ratio), *judged(statistics.median(self.work), bar))
 
     def more(self, name, bar):
         """What the work takes more than what is beside it."""
@@ -53,6 +53,10 @@ def shown(seconds):
     if seconds < 1e-6:
         return f"{seconds * 1e9:.0f} ns"
     return f"{seconds * 1e6:.3g} µs" if seconds < 1e-3 else f"{seconds * 1e3:.3g} ms"
+
+
+def shown_ratio(ratio):
+    return f"{ratio:.2f}" if ratio >= 0.1 else f"{ratio:.2g}"
 
 
 def judged(seconds, bar):
@@ -108,7 +112,7 @@ class Movement:
         return seam.ArmController(self.model, self.task, "dmp3", q=self.q[0], qd=self.qd[0])
 
     def ticks(self):
-        """Plays it in Python; the time of a tick and all torques."""
+        """Plays it in Python; the time of a tick, and the last one's torque."""
         control = self.controller()
         states = list(zip(self.q, self.qd))
         begin = time.thread_time()
@@ -146,6 +150,7 @@ class Bullet:
     """The arm in a PyBullet of its own, and its calls in a tick."""
 
     def __init__(self, pybullet, movement):
+        import seam.pybullet
         from pybullet_utils.bullet_client import BulletClient
 
         self.api = BulletClient(connection_mode=pybullet.DIRECT)
@@ -153,21 +158,23 @@ class Bullet:
         self.api.setTimeStep(DT)
         self.body = self.api.loadURDF(URDF, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
         self.mode = pybullet.TORQUE_CONTROL
+        self.joints = [j for j in range(self.api.getNumJoints(self.body))
+                       if self.api.getJointInfo(self.body, j)[2] == pybullet.JOINT_REVOLUTE]
         self.movement = movement
+        self.take_over = seam.pybullet.attach
         control = self.attach()
-        self.joints = control._joints
         self.torques = []
         for _ in movement.q:
             control.step()
             self.torques.append(control.torque.tolist())
+        self.own()
+        q = [state[0] for state in self.api.getJointStates(self.body, self.joints)]
+        np.testing.assert_allclose(q, movement.q[-1], atol=1e-3)  # it is the same movement
 
     def attach(self):
-        moved = [j for j in range(self.api.getNumJoints(self.body)) if self.api.getJointInfo(self.body, j)[2] == 0]
-        for joint, q, qd in zip(moved, self.movement.q[0], self.movement.qd[0]):
+        for joint, q, qd in zip(self.joints, self.movement.q[0], self.movement.qd[0]):
             self.api.resetJointState(self.body, joint, q, qd)
-        import seam.pybullet
-
-        return seam.pybullet.attach(self.body, self.movement.task, "dmp3", client=self.api, urdf=URDF)
+        return self.take_over(self.body, self.movement.task, "dmp3", client=self.api, urdf=URDF)
 
     def seams(self):
         """seam.pybullet's tick and the step."""
@@ -194,7 +201,7 @@ def pybullet_rows(movement):
     try:
         import pybullet
     except ImportError:
-        return [(name, *["PyBullet is not there"], *[""] * 6) for name in names]
+        return [(name, "not there", *[""] * 6) for name in names]
     bullet = Bullet(pybullet, movement)
     return [Pair(lambda: movement.ticks()[0], bullet.own, 50).row(names[0]),
             Pair(bullet.seams, bullet.own, 50).row(names[1])]
@@ -240,7 +247,7 @@ def learn_rows():
 
 def rollout_by_numpy(first, second, before_end, steps):
     """Two primitives joined by dmp3 (Eqs. 1 to 6), by Euler's method: arrays over the joints, a loop over the ticks."""
-    y, yd, ydd = first.start_position, 0.0 * first.goal, 0.0 * first.goal  # at rest
+    y, yd, ydd = first.start_position, np.zeros(first.dimensions), np.zeros(first.dimensions)  # from rest
     path = np.empty((3, steps + 1, len(y)))
     join = round((first.tau - before_end) / DT)
     for begin, end, p in ((0, join, first), (join, steps + 1, second)):
@@ -276,15 +283,16 @@ def rollout_rows(movement):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", metavar="FILE", help="file that the table is written to (Markdown)")
+    parser.add_argument("--append", metavar="FILE", help="file to whose end the table goes (Markdown)")
     parser.add_argument("--strict", action="store_true", help="exit code 1 if a bar is missed")
     options = parser.parse_args()
     movement = Movement()
     rows = [HEAD, *tick_rows(movement), *pybullet_rows(movement), *learn_rows(), *rollout_rows(movement)]
-    report = f"{markdown(rows)}\nMeasured by Python {platform.python_version()} with numpy {np.__version__}.\n"
+    report = f"\n{markdown(rows)}\nMeasured by Python {platform.python_version()} with numpy {np.__version__}.\n"
     print(report, end="")
-    if options.out:
-        pathlib.Path(options.out).write_text(report, encoding="utf-8")
+    if options.append:
+        with open(options.append, "a", encoding="utf-8") as file:
+            file.write(report)
     return 1 if options.strict and any(row[-1] == "missed" for row in rows) else 0
 
 
