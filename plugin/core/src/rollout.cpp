@@ -110,13 +110,13 @@ Recording rollout(Sequencer& sequencer, const RolloutSettings& settings) {
   Recording recording;
   recording.source = "rollout";
   (are_a_tools(names) ? recording.coordinates : recording.joints) = names;
-  for (const std::string& name : recording.joints) recording.slides.push_back(is_linear(name));
   recording.effort.setConstant(static_cast<Eigen::Index>(recording.joints.size()),
                                std::numeric_limits<double>::quiet_NaN());
   rows.move_to(recording);
 
   std::vector<bool> slides;
   for (const std::string& name : names) slides.push_back(is_linear(name));
+  if (!recording.in_task_space()) recording.slides = slides;
   for (int i = std::max(from_beginning ? 0 : first, sequencer.first_join()); i < sequencer.joins();
        ++i) {
     const JoinEvent& event = sequencer.join(i);

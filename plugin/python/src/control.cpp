@@ -14,7 +14,7 @@ struct Arm {
   Eigen::VectorXd q, qd;
 
   const Eigen::VectorXd& tick(double dt, const Numbers& q_now, const Numbers& qd_now) {
-    if (!(dt > 0.0 && std::isfinite(dt))) throw Error("dt", std::to_string(dt) + " s, must be > 0");
+    require_tick(dt);
     q_now.copy_to(q, "q");
     qd_now.copy_to(qd, "qd");
     return control.tick(dt, q, qd);

@@ -20,11 +20,6 @@ struct Sized {
   Eigen::Index n;
 };
 
-double require_tick(double dt) {
-  if (!(dt > 0.0 && std::isfinite(dt))) throw Error("dt", std::to_string(dt) + " s, must be > 0");
-  return dt;
-}
-
 void bind_inverse_dynamics(py::module_& module) {
   Class<InverseDynamics> dynamics(module, "InverseDynamics");
   dynamics

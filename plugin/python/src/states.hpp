@@ -49,6 +49,12 @@ inline double require_step(double dt) {
   return dt;
 }
 
+/// @throws Error  it is not > 0, or not finite
+inline double require_tick(double dt) {
+  if (!(dt > 0.0 && std::isfinite(dt))) throw Error("dt", std::to_string(dt) + " s, must be > 0");
+  return dt;
+}
+
 }  // namespace seam::python
 
 namespace pybind11::detail {
