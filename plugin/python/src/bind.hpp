@@ -156,10 +156,7 @@ void assign(T& to, py::handle from, const std::string& name) {
     } else {
       const Eigen::MatrixXd values = numbers.matrix(name);
       if constexpr (T::SizeAtCompileTime != Eigen::Dynamic)
-        if (values.rows() != to.rows() || values.cols() != to.cols())
-          throw Error(name, "shape (" + std::to_string(values.rows()) + ", " +
-                                std::to_string(values.cols()) + "), must be (" +
-                                std::to_string(to.rows()) + ", " + std::to_string(to.cols()) + ")");
+        require_shape(values, to.rows(), to.cols(), name);
       to = values;
     }
   } else {

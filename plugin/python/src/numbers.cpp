@@ -17,7 +17,7 @@ py::array_t<double> array_of(const Numbers& numbers, const std::string& name) {
     throw Error(name, "has values that are masked");
   const py::array any = py::array::ensure(numbers.given);
   if (!any) PyErr_Clear();
-  if (!any || std::string("biuf").find(any.dtype().kind()) == std::string::npos)
+  if (!any || !holds_numbers(any))
     throw Error(name, std::string("given as ") + Py_TYPE(numbers.given.ptr())->tp_name +
                           (any ? " of " + py::str(any.dtype()).cast<std::string>() : "") +
                           ", must be an array of numbers");
@@ -72,6 +72,20 @@ void Numbers::copy_to(Eigen::VectorXd& values, const char* name) const {
   }
 }
 
+void require_shape(const Eigen::MatrixXd& values, Eigen::Index rows, Eigen::Index cols,
+                   const std::string& name) {
+  const auto shape = [](Eigen::Index m, Eigen::Index n) {
+    return "(" + std::to_string(m) + ", " + std::to_string(n) + ")";
+  };
+  if (values.rows() != rows || values.cols() != cols)
+    throw Error(name,
+                "shape " + shape(values.rows(), values.cols()) + ", must be " + shape(rows, cols));
+}
+
+bool holds_numbers(const py::array& array) {
+  return std::string("biuf").find(array.dtype().kind()) != std::string::npos;
+}
+
 py::array new_array(const Eigen::VectorXd& values) {
   const auto& numpy = py::detail::npy_api::get();
   const py::ssize_t size = values.size();
@@ -93,9 +107,7 @@ Eigen::Quaterniond to_quaternion(const Numbers& numbers, const std::string& name
 Eigen::Isometry3d to_pose(const Numbers& numbers, const std::string& name) {
   constexpr double rounding = 1e-6;
   const Eigen::MatrixXd matrix = numbers.matrix(name);
-  if (matrix.rows() != 4 || matrix.cols() != 4)
-    throw Error(name, "shape (" + std::to_string(matrix.rows()) + ", " +
-                          std::to_string(matrix.cols()) + "), must be (4, 4)");
+  require_shape(matrix, 4, 4, name);
   const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
   if (!matrix.allFinite() || !(R * R.transpose()).isIdentity(rounding) || R.determinant() < 0.0 ||
       !matrix.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0), rounding))

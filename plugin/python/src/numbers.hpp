@@ -36,6 +36,12 @@ struct Numbers {
   void copy_to(Eigen::VectorXd& values, const char* name) const;
 };
 
+/// @throws Error  NAME: another shape
+void require_shape(const Eigen::MatrixXd& values, Eigen::Index rows, Eigen::Index cols,
+                   const std::string& name);
+/// Whether an array holds numbers, and not text, objects or complex ones.
+bool holds_numbers(const py::array& array);
+
 /// A new array of float64, quicker than by casts: of one dimension.
 py::array new_array(const Eigen::VectorXd& values);
 
@@ -128,8 +134,7 @@ struct type_caster<seam::PerJoint> {
   bool load(handle from, bool) {
     const array given = array::ensure(from);
     if (!given) PyErr_Clear();
-    if (given && given.ndim() == 0 &&
-        std::string("biuf").find(given.dtype().kind()) != std::string::npos)
+    if (given && given.ndim() == 0 && seam::python::holds_numbers(given))
       value = seam::PerJoint(given.attr("item")().cast<double>());
     else
       value = seam::PerJoint(

@@ -86,14 +86,6 @@ std::pair<Eigen::VectorXd, py::object> split_frame(const py::object& frame) {
   return {time.vector("time"), rest};
 }
 
-void require_shape(const Eigen::MatrixXd& values, const Demonstration& demo, const char* place) {
-  const auto D = static_cast<Eigen::Index>(demo.coordinates.size());
-  if (values.rows() != demo.time.size() || values.cols() != D)
-    throw Error(place, "shape (" + std::to_string(values.rows()) + ", " +
-                           std::to_string(values.cols()) + "), must be (" +
-                           std::to_string(demo.time.size()) + ", " + std::to_string(D) + ")");
-}
-
 Demonstration demonstration(const py::object& first, const py::object& position,
                             const Names& coordinates, py::object velocity, py::object acceleration,
                             const std::optional<Eigen::Quaterniond>& reference, double cutoff,
@@ -128,16 +120,20 @@ Demonstration demonstration(const py::object& first, const py::object& position,
   demo.coordinates = columns.names;
   demo.time = time;
   demo.position = columns.values;
-  require_shape(demo.position, demo, "position");
+  const auto require = [&](const Eigen::MatrixXd& values, const char* place) {
+    require_shape(values, demo.time.size(), static_cast<Eigen::Index>(demo.coordinates.size()),
+                  place);
+  };
+  require(demo.position, "position");
   const auto slopes = [&](const py::object& given, const Eigen::MatrixXd& of, const char* place) {
     if (!given.is_none()) return values_of(given, columns.names, time.size(), place);
     return Demonstration::from_positions(columns.names, time, of, DerivativeSettings{cutoff})
         .velocity;
   };
   demo.velocity = slopes(velocity, demo.position, "velocity");
-  require_shape(demo.velocity, demo, "velocity");
+  require(demo.velocity, "velocity");
   demo.acceleration = slopes(acceleration, demo.velocity, "acceleration");
-  require_shape(demo.acceleration, demo, "acceleration");
+  require(demo.acceleration, "acceleration");
   demo.reference_orientation = reference;
   demo.source = source;
   demo.validate();
