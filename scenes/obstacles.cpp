@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t most_obstacles = 100;
 constexpr double farthest = 10.0;  // [m] at which a distance is still measured
+constexpr double nearest = 1e-3;   // [m] within which it always is
 
 Geometry read_shape(const YamlEntry& entry) {
   const auto edges = entry.find("box");
@@ -48,13 +49,15 @@ Obstacle read_obstacle(const YamlEntry& entry) {
 }
 
 struct LeastDistance final : btCollisionWorld::ContactResultCallback {
-  LeastDistance() { m_closestDistanceThreshold = btScalar(farthest); }
+  explicit LeastDistance(double within) : least(within) {
+    m_closestDistanceThreshold = static_cast<btScalar>(within);
+  }
   btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
                            const btCollisionObjectWrapper*, int, int) override {
     least = std::min(least, static_cast<double>(point.getDistance()));
     return 0;
   }
-  double least = farthest;
+  double least;
 };
 
 // One of them in Bullet's world.
@@ -82,8 +85,9 @@ class Body {
     return Eigen::Isometry3d(
         Eigen::Translation3d(eigen_vector(object_.getWorldTransform().getOrigin())));
   }
-  double distance(btCollisionObject& other) {
-    LeastDistance distance;
+  // At most `within`, which is what it is then said to be.
+  double distance(btCollisionObject& other, double within) {
+    LeastDistance distance(within);
     world_.contactPairTest(&object_, &other, distance);
     return distance.least;
   }
@@ -107,14 +111,16 @@ class Obstacles final : public Object {
   }
 
   void pre_tick(Eigen::Index, double time) override {
-    double nearest = farthest;
+    double now = std::max(least_, nearest);
     for (const auto& body : bodies_) {
       body->move(time);
-      for (btCollisionObject* const link : links_)
-        nearest = std::min(nearest, body->distance(*link));
+      for (btCollisionObject* const link : links_) {
+        const double within = std::max(now, nearest);
+        now = std::min(now, body->distance(*link, within));
+      }
     }
-    least_ = std::min(least_, nearest);
-    touched_ += nearest <= 0.0 ? 1 : 0;
+    least_ = std::min(least_, now);
+    touched_ += now <= 0.0 ? 1 : 0;
     ++ticks_;
   }
   void appear(Replay& replay) override {
