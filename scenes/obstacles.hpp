@@ -33,8 +33,8 @@ std::vector<Obstacle> read_obstacles(const YamlEntry& entry);
 /// All of a scene's obstacles, in the robot's world as kinematic objects that nothing meets: what would touch is measured and
 /// not pushed. Each tick Bullet's contact test between each of them and the robot's colliders gives their distance, negative by
 /// the depth where they penetrate. Outcomes: `touched_share`, the share of ticks in which it is not positive, and
-/// `obstacle_distance_m`, the least of all, of which more is better. A mesh counts as the hull that it collides as
-/// (see RobotSettings).
+/// `obstacle_distance_m`, the least of all, of which more is better. Meshes count as the hulls that they
+/// collide as (see RobotSettings), and edges are round by Bullet's margin of 1 mm.
 /// @param robot  its world must outlive them
 std::unique_ptr<Object> make_obstacles(const Scene& scene, Robot& robot);
 
