@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "responses.hpp"
 #include "vectors.hpp"
 #include <seam/execution.hpp>
 #include <seam/quintic.hpp>
@@ -72,11 +75,15 @@ SEAM_WIDEST_VECTORS void observe(double k, double c, double b, int D, const doub
 
 }  // namespace
 
-Execution::Execution(const Primitive& primitive)
+Execution::Execution(const Primitive& primitive, const std::vector<Wish>& wishes,
+                     const Eigen::VectorXd& leave)
     : gains_(valid(primitive).gains),
       tau_(primitive.tau),
       basis_(primitive),
-      sample_(primitive.dimensions()) {
+      sample_(primitive.dimensions()),
+      responses_(std::make_shared<Responses>(primitive)),
+      slots_(std::max<std::size_t>(most_wishes, wishes.size())),
+      conditions_(basis_.count(), 2 + 4 * static_cast<int>(slots_.size())) {
   const int D = primitive.dimensions();
   const int M = basis_.count();
   const int stride = padded(D);
@@ -86,73 +93,131 @@ Execution::Execution(const Primitive& primitive)
   at(target).head(D) = primitive.goal;
   row_.setZero(M);
   slope_.setZero(M);
+  make_room(stride);
   Sample start(D);
   start.position = primitive.start_position;
   start.velocity = primitive.start_velocity;
   reinitialise(start, basis_.start_phase(), Join::dmp2);
+  take(wishes, leave);
 }
 
 void Execution::reinitialise(const Sample& from, double phase, const JoinSettings& join) noexcept {
   join_ = join;
+  begin_phase_ = fade_from_ = phase;
+  passed_ = 0.0;
+  elapsed_ = 0.0;
+  stays_ = false;
+  wishes_hold_ = true;
+  wishes_ = given_;
+  for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].live = static_cast<int>(i) < given_;
+  begin_from(from, phase);
+}
+
+void Execution::resume(const Sample& from) noexcept {
+  fade_from_ = phase_;
+  begin_from(from, phase_);
+}
+
+void Execution::begin_from(const Sample& from, double phase) noexcept {
   fading_ = false;
-  weights() = learned();
+  if (stays_)
+    weights().setZero();
+  else
+    weights() = learned();
   change().setZero();
   at(added).setZero();
   at(added_rate).setZero();
-  joined_phase_ = phase;
-  continue_from(from, phase, true);
+  if (find_from(from, phase, true)) return go_on();
+  wishes_hold_ = false;
+  for (Slot& slot : slots_) slot.live = false;
+  begin_from(from, phase);
 }
 
-// Continues from a state: what is missing of the forcing is made up for as the method says. At a join by the weights if
-// they hold, on the way of a rhythmic primitive by a forcing that is added and dies out.
-void Execution::continue_from(const Sample& from, double phase, bool at_join) noexcept {
-  entry_phase_ = phase_ = phase;
+// Finds what it takes to continue from a state: what is missing of the forcing is made up for as the method says. At a join
+// by the weights if they hold, on the way of a rhythmic primitive by a forcing that is added and dies out.
+bool Execution::find_from(const Sample& from, double phase, bool at_join) noexcept {
+  passed_ += elapsed_;
   elapsed_ = 0.0;
+  entry_phase_ = phase_ = phase;
+  look_ahead();
+  hold_off_fading();
   evaluate_regressor();
+  const bool enters = at_join && passed_ == 0.0;
   const bool by_weights = weights_hold() && (at_join || kind() == Kind::discrete);
+  missing_.setZero();
+  delta_.setZero();
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
+    const bool leaves = enters && !std::isnan(leave_(d));
     const Forcing has = present(d);
-    const Forcing needs = needed(from, d);
-    const Forcing missing{needs.value - has.value - at(added)(d),
-                          needs.rate - has.rate - at(added_rate)(d)};
+    const Forcing needs = needed(from, leaves ? leave_(d) : from.acceleration(d), d);
     at(offset)(d) = from.position(d) - at(target)(d);
     at(velocity)(d) = from.velocity(d);
     at(f_start)(d) = has.value;
-    if (join_.method == Join::dmp2) continue;
-    if (join_.method == Join::dmp3) {
-      at(added)(d) += missing.value;
-      at(added_rate)(d) = -gains_.H / tau_ * at(added)(d);
-    } else if (by_weights) {
-      change_weights(d, missing);
-      at(f_start)(d) += missing.value;
-    } else {
-      at(added)(d) += missing.value;
-      if (join_.method == Join::dmp2j) at(added_rate)(d) += missing.rate;
-    }
+    if (join_.method == Join::dmp2 && !leaves) continue;
+    make_up_for(d,
+                {needs.value - has.value - at(added)(d), needs.rate - has.rate - at(added_rate)(d)},
+                by_weights);
   }
+  return find_changes();
+}
+
+void Execution::make_up_for(Eigen::Index d, Forcing missing, bool by_weights) noexcept {
+  if (join_.method == Join::dmp3 || !by_weights) {
+    at(added)(d) += missing.value;
+    if (join_.method == Join::dmp3) at(added_rate)(d) = -gains_.H / tau_ * at(added)(d);
+    if (join_.method == Join::dmp2j) at(added_rate)(d) += missing.rate;
+    return;
+  }
+  at(f_start)(d) += missing.value;
+  if (join_.method != Join::dmp2a || join_.change == WeightChange::smallest) {
+    missing_.row(d) << missing.value, missing.rate;
+    return;
+  }
+  Eigen::Index kernel = 0;
+  if (join_.change == WeightChange::strongest) row_.cwiseAbs().maxCoeff(&kernel);
+  delta_(d, kernel) = missing.value / row_(kernel);
+}
+
+// Does what was found.
+void Execution::go_on() noexcept {
+  if (kind() == Kind::discrete) {
+    weights() += delta_;
+  } else {
+    change() += delta_;
+    fading_ = fading_ || !delta_.isZero(0.0);
+  }
+  std::swap(price_, offer_);
   refresh_sample();
 }
 
-void Execution::change_weights(Eigen::Index d, Forcing missing) noexcept {
-  fading_ = kind() == Kind::rhythmic;
-  auto change = (fading_ ? this->change() : weights()).row(d).head(basis_.count());
-  const double aa = row_.squaredNorm();
-  if (join_.method == Join::dmp2j) {
-    const double ab = row_.dot(slope_);
-    const double bb = slope_.squaredNorm();
-    const double determinant = aa * bb - ab * ab;
-    change += row_ * ((bb * missing.value - ab * missing.rate) / determinant) +
-              slope_ * ((aa * missing.rate - ab * missing.value) / determinant);
-  } else if (join_.change == WeightChange::smallest) {
-    change += row_ * (missing.value / aa);
-  } else {
-    Eigen::Index kernel = 0;
-    if (join_.change == WeightChange::strongest) row_.cwiseAbs().maxCoeff(&kernel);
-    change(kernel) += missing.value / row_(kernel);
-  }
+const Sample& Execution::remember() noexcept {
+  before_ << hot_.leftCols<columns>(), change();
+  tau_before_ = tau_;
+  amplitude_before_ = amplitude_;
+  fade_from_before_ = fade_from_;
+  fading_before_ = fading_;
+  return state();
+}
+
+bool Execution::go_on_or_back(const Sample& now) noexcept {
+  if (find_from(now, phase_, false)) return go_on(), true;
+  go_back();
+  return false;
+}
+
+void Execution::go_back() noexcept {
+  hot_.leftCols<columns>() = before_.leftCols<columns>();
+  change() = before_.rightCols(kernels());
+  tau_ = tau_before_;
+  amplitude_ = amplitude_before_;
+  fade_from_ = fade_from_before_;
+  fading_ = fading_before_;
+  dt_ = std::numeric_limits<double>::quiet_NaN();
+  look_ahead();
 }
 
 bool Execution::weights_hold() const noexcept {
+  if (stays_) return false;
   if (kind() == Kind::discrete && phase_ < faded_phase) return false;
   const double aa = row_.squaredNorm();
   if (!(aa > 1e-12)) return false;
@@ -190,18 +255,25 @@ Execution::Forcing Execution::present(Eigen::Index d) const noexcept {
 
 // How much of the half cycle has gone by in which a rhythmic primitive's change fades.
 double Execution::faded(double phase) const noexcept {
-  return std::min((phase - joined_phase_) / M_PI, 1.0);
+  return std::clamp((phase - fade_from_) / M_PI, 0.0, 1.0);
 }
 
-Execution::Forcing Execution::needed(const Sample& from, Eigen::Index d) const noexcept {
+Execution::Forcing Execution::needed(const Sample& from, double acceleration,
+                                     Eigen::Index d) const noexcept {
   const double tau2 = tau_ * tau_;
   const double damping = tau_ * gains_.D;
-  return {tau2 * from.acceleration(d) + damping * from.velocity(d) -
+  return {tau2 * acceleration + damping * from.velocity(d) -
               gains_.K * (at(target)(d) - from.position(d)),
-          tau2 * from.jerk(d) + damping * from.acceleration(d) + gains_.K * from.velocity(d)};
+          tau2 * from.jerk(d) + damping * acceleration + gains_.K * from.velocity(d)};
 }
 
 void Execution::step(double dt) noexcept {
+  if (arrival_ - elapsed_ <= dt) {
+    const double left = std::max(0.0, arrival_ - elapsed_);
+    advance(left);
+    arrive();
+    dt -= left;
+  }
   const int parts = fading_ ? fading_parts : 1;
   for (int i = 0; i < parts; ++i) advance(dt / parts);
   refresh_sample();
@@ -255,29 +327,26 @@ const Sample& Execution::state() noexcept {
 bool Execution::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {
   if (goal.size() != dimensions() || !goal.allFinite()) return false;
   if (goal == this->goal()) return true;
-  const Sample& now = state();
+  const Sample& now = remember();
   at(target).head(dimensions()) = goal;
-  continue_from(now, phase_, false);
-  return true;
+  return go_on_or_back(now);
 }
 
 bool Execution::set_tau(double tau) noexcept {
   if (!(tau >= tau_bounds.least && tau <= tau_bounds.largest)) return false;
   if (tau == tau_) return true;
-  const Sample& now = state();
+  const Sample& now = remember();
   tau_ = tau;
   dt_ = std::numeric_limits<double>::quiet_NaN();
-  continue_from(now, phase_, false);
-  return true;
+  return go_on_or_back(now);
 }
 
 bool Execution::set_amplitude(double amplitude) noexcept {
   if (!std::isfinite(amplitude) || kind() != Kind::rhythmic) return false;
   if (amplitude == amplitude_) return true;
-  const Sample& now = state();
+  const Sample& now = remember();
   amplitude_ = amplitude;
-  continue_from(now, phase_, false);
-  return true;
+  return go_on_or_back(now);
 }
 
 double Execution::correction(const Sample& from, double phase) noexcept {
@@ -285,7 +354,7 @@ double Execution::correction(const Sample& from, double phase) noexcept {
   double sum = 0.0;
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
     const double has = amplitude_ * learned().row(d).head(basis_.count()).dot(row_);
-    const double missing = needed(from, d).value - has;
+    const double missing = needed(from, from.acceleration(d), d).value - has;
     sum += missing * missing;
   }
   return sum / (tau_ * tau_ * tau_ * tau_);

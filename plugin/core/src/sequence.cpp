@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "shown.hpp"
 #include <seam/error.hpp>
+#include <seam/execution.hpp>
 #include <seam/orientation.hpp>
 #include <seam/sequence.hpp>
 
@@ -43,32 +46,23 @@ double phase_of(const Entry& entry, const Basis& basis) noexcept {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double due(const Switch& until, const Basis& basis, const Reached& now) noexcept {
-  constexpr double never = std::numeric_limits<double>::infinity();
-  switch (until.when) {
-    case Switch::When::after:
-      return until.value;
-    case Switch::When::before_end:
-      return now.time + now.tau - basis.time_to(now.phase, basis.start_phase(), now.tau) -
-             until.value;
-    case Switch::When::cycles:
-      return now.time + now.tau * (2.0 * M_PI * until.value - now.turned);
-    case Switch::When::at_phase: {
-      const double phase = basis.next(until.value, now.phase - now.turned);
-      return std::isnan(phase) ? never : now.time + basis.time_to(phase, now.phase, now.tau);
-    }
-    case Switch::When::near_goal:
-    case Switch::When::on_call:
-      break;
-  }
-  return never;
-}
-
 namespace {
 
 double due_after_entry(const Primitive& primitive, const Switch& until, const Entry& entry) {
   const Basis basis(primitive);
   return due(until, basis, {primitive.tau, 0.0, phase_of(entry, basis), 0.0});
+}
+
+// What is wished after the switch would never come.
+void require_in_time(const Sequence::Step& step, const std::string& place) {
+  const double switched = due_after_entry(step.primitive, step.until, step.entry);
+  for (std::size_t i = 0; i < step.wishes.size(); ++i) {
+    const double moment = due_after_entry(step.primitive, step.wishes[i].when, step.entry);
+    if (moment > switched + 1e-9)
+      throw Error(place, "wish " + std::to_string(i + 1) + " is for " + shown(moment) +
+                             " s after its beginning, must be before its switch at " +
+                             shown(switched) + " s");
+  }
 }
 
 }  // namespace
@@ -94,8 +88,9 @@ Sequence& Sequence::then(Primitive primitive) {
     require_same_reference(name(steps_.size()), reference, primitive.reference_orientation);
     primitive.reference_orientation = reference;
   }
+  if (!steps_.empty()) require_in_time(steps_.back(), name(steps_.size() - 1));
   const Switch until = primitive.kind == Kind::rhythmic ? after_cycles(1.0) : at_end();
-  steps_.push_back({std::move(primitive), until, {}});
+  steps_.push_back({std::move(primitive), until, {}, {}, {}});
   return *this;
 }
 
@@ -119,6 +114,56 @@ Sequence& Sequence::enter(Entry entry) {
     throw Error(place, "is discrete and always entered at its beginning");
   if (!std::isfinite(entry.phase)) throw Error(place, "its entry phase is not finite");
   step.entry = entry;
+  return *this;
+}
+
+Eigen::VectorXd Sequence::named(const Values& values, const char* caller) {
+  const std::vector<std::string>& names = last(caller).primitive.coordinates;
+  Eigen::VectorXd all = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()),
+                                                  std::numeric_limits<double>::quiet_NaN());
+  for (const auto& [coordinate, value] : values) {
+    const auto found = std::find(names.begin(), names.end(), coordinate);
+    if (found == names.end())
+      throw Error(name(steps_.size() - 1),
+                  std::string(caller) + ": \"" + coordinate + "\" is not among its coordinates");
+    if (!std::isfinite(value))
+      throw Error(name(steps_.size() - 1), std::string(caller) + ": " + coordinate + " is " +
+                                               shown(value) + ", must be finite");
+    all(found - names.begin()) = value;
+  }
+  return all;
+}
+
+Sequence& Sequence::wish(Wish wish) {
+  Step& step = last("wish");
+  std::vector<Wish> wishes = step.wishes;
+  wishes.push_back(std::move(wish));
+  try {
+    Execution execution(step.primitive, wishes, step.leave);
+    const double phase = phase_of(step.entry, execution.basis());
+    if (!std::isnan(phase)) execution.require_possible(phase, Join::dmp2);
+  } catch (const Error& error) {
+    throw Error(name(steps_.size() - 1), error.what());
+  }
+  step.wishes = std::move(wishes);
+  return *this;
+}
+
+Sequence& Sequence::pass(const Values& position, Switch when) {
+  return wish(seam::pass(named(position, "pass"), when));
+}
+
+Sequence& Sequence::hit(const Values& position, const Values& velocity, Switch when) {
+  wish(seam::hit(named(position, "hit"), named(velocity, "hit"), when));
+  return until(when);
+}
+
+Sequence& Sequence::arrive(Switch when, bool smooth) {
+  return wish(seam::arrive(when, smooth));
+}
+
+Sequence& Sequence::leave(const Values& acceleration) {
+  last("leave").leave = named(acceleration, "leave");
   return *this;
 }
 

@@ -26,6 +26,19 @@ std::optional<Execution> rest_of(const Primitive& primitive) {
   return Execution(rest);
 }
 
+Execution made(const Sequence::Step& step, std::size_t index, const JoinSettings& join) {
+  Execution execution(step.primitive, step.wishes, step.leave);
+  const double phase = phase_of(step.entry, execution.basis());
+  if (step.wishes.empty() || std::isnan(phase)) return execution;
+  try {
+    execution.require_possible(phase, join);
+  } catch (const Error& error) {
+    throw Error("sequencer",
+                "primitive " + std::to_string(index + 1) + ": " + std::string(error.what()));
+  }
+  return execution;
+}
+
 bool usable(const Sample& at, int dimensions) {
   for (const Eigen::VectorXd* part : {&at.position, &at.velocity, &at.acceleration, &at.jerk})
     if (part->size() != dimensions || !part->allFinite()) return false;
@@ -51,6 +64,8 @@ Sequencer::Sequencer(const Sequence& sequence, const JoinSettings& join, const S
   if (start_delay_ > 0.0 && !at_rest)
     throw Error("sequencer", "start moves, must be at rest where the first primitive is delayed");
   push(sequence);
+  nothing_runs_ = price();
+  nothing_runs_.possible = false;
   due_ = start_delay_;
   if (start_delay_ == 0.0) switch_over();
 }
@@ -70,9 +85,12 @@ void Sequencer::forget_played() {
 void Sequencer::push(const Sequence& sequence) {
   require_joinable(sequence);
   forget_played();
-  for (const Sequence::Step& step : sequence.steps())
-    items_.push_back({Execution(step.primitive), rest_of(step.primitive), step.until, step.entry});
+  for (std::size_t i = 0; i < sequence.steps().size(); ++i) {
+    const Sequence::Step& step = sequence.steps()[i];
+    items_.push_back({made(step, i, join_), rest_of(step.primitive), step.until, step.entry});
+  }
   JoinEvent event;
+  event.price = items_.front().execution.price();
   event.acceleration_before.setZero(dimensions());
   event.acceleration_after = event.jerk_before = event.jerk_after = event.acceleration_before;
   const int expected = joins_ + to_come() + 1;  // one more for settling at the end
@@ -202,6 +220,7 @@ void Sequencer::join_to(Execution& next, double phase, int primitive) noexcept {
   event.acceleration_after = after.acceleration;
   event.jerk_before = before.jerk;
   event.jerk_after = after.jerk;
+  event.price = next.price();
 }
 
 bool Sequencer::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {
@@ -217,6 +236,27 @@ bool Sequencer::set_tau(double tau) noexcept {
   if (!finished_) update_due();
   rescale();
   return true;
+}
+
+bool Sequencer::set_wish(int which, const Wish& wish) noexcept {
+  ++changes_;
+  if (running_ < 0 || settling_ || !now().set_wish(which, wish)) return false;
+  if (wish.then == Wish::Then::hand_over && !finished_) {
+    item().until = wish.when;
+    update_due();
+  }
+  rescale();
+  return true;
+}
+
+void Sequencer::drop_wishes() noexcept {
+  ++changes_;
+  if (running_ >= 0) now().drop_wishes();
+}
+
+const Price& Sequencer::price_of(int which, const Wish& wish) noexcept {
+  if (running_ >= 0 && !settling_) return now().price_of(which, wish);
+  return nothing_runs_;
 }
 
 bool Sequencer::set_rate(double rate, double over) noexcept {
@@ -240,7 +280,7 @@ bool Sequencer::reinitialise(const Sample& at) noexcept {
   if (running_ < 0)
     start_.position = at.position;
   else
-    now().reinitialise(at, now().phase(), join_);
+    now().resume(at);
   return true;
 }
 

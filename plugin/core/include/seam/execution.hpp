@@ -1,18 +1,25 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include <seam/alignment.hpp>
 #include <seam/basis.hpp>
 #include <seam/compensated_sum.hpp>
+#include <seam/conditions.hpp>
 #include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/primitive.hpp>
 #include <seam/propagator.hpp>
+#include <seam/wish.hpp>
 
 namespace SEAM_API seam {
+
+class Responses;
 
 /// A primitive while it runs: its state, its own copy of the weights, and the integration of its equations.
 /// Construction allocates; nothing after it does, and nothing after it throws.
@@ -22,7 +29,7 @@ namespace SEAM_API seam {
 ///     F = τ²ÿ + τDẏ − K(g − y),   Ḟ = τ²y⃛ + τDÿ + Kẏ        (Eq. 19 and its derivative)
 /// a method sets
 ///     dmp2   r = g
-///     dmp2a  r = g,  Δw = a·(F − aᵀw)/|a|² (Eq. 21, in which the scale of ψ cancels), or one kernel's change
+///     dmp2a  r = g,  Δw the smallest with aᵀ(w + Δw) = F (Eq. 21, in which the scale of ψ cancels), or one kernel's
 ///     dmp3   r = y + (τ²ÿ + τDẏ − aᵀw)/K   (Eq. 6)
 ///     dmp2j  r = g,  Δw the smallest with aᵀ(w + Δw) = F and ȧᵀ(w + Δw) = Ḟ
 /// A discrete primitive needs no undo of Δw: x fades. A rhythmic one blends it out over half a cycle by
@@ -36,23 +43,58 @@ namespace SEAM_API seam {
 /// alone, is weaker than a tenth of the strongest. dmp2a and dmp2j then add what is missing to the forcing, and it
 /// dies out critically damped with the time constant τ/H, ë = −2(H/τ)ė − (H/τ)²e; dmp2a with ė₀ = 0. The filtered goal
 /// of dmp3 is the same with ė₀ = −(H/τ)e₀ and r = g + e/K.
+///
+/// Wishes are more conditions on Δw. With Φⱼ(t) the response, from rest, to kernel j alone, y(t) = y_free(t) + ΦᵀΔw, and likewise
+/// ẏ, ÿ, y⃛: a value that is wished at a time is a row of one small system, beside the join's own,
+///     aᵀΔw = F − f  (and ȧᵀΔw = Ḟ − ḟ: dmp2j),   Φ(t)ᵀΔw = y_wish − y_free(t),  …
+/// solved for the smallest Δw. Where the join is not made by the weights (dmp2, dmp3, changes on the way of a rhythmic
+/// primitive, a faded phase) its row is there with 0 on the right: wishes then leave the forcing as it is at that moment. So
+/// all methods keep continuous what they keep without wishes. A row of which less than a fifth of the length lies
+/// outside of what those before it span asks for too much (a point too near in time, a faded phase, wishes that contradict each other,
+/// more of them than kernels): then the call is refused, and changes nothing. Every change on the way solves the system anew for the wishes
+/// that are still to come.
+///
+/// A rhythmic primitive can be wished to pass and to hit within the cycle that is entered; Δw is blended out from the last wish on.
 class Execution {
  public:
   /// Stands at the primitive's own start (the demonstration's first position and velocity, r = g).
-  /// @throws Error  the primitive is not valid
-  explicit Execution(const Primitive& primitive);
+  /// @param wishes  of every time that it is entered
+  /// @param leave   D [rad/s² or m/s²], or empty: acceleration with which it is entered, in place of the predecessor's; NaN:
+  ///                that one
+  /// @throws Error  the primitive or a wish is not valid
+  explicit Execution(const Primitive& primitive, const std::vector<Wish>& wishes = {},
+                     const Eigen::VectorXd& leave = {});
+  /// @throws Error  the first wish that cannot be met, whatever the state, where the primitive is entered at a phase by a
+  ///                method
+  void require_possible(double phase, const JoinSettings& join);
 
-  /// Continues from a state at a phase of the primitive, which the caller vouches for: D finite values each (the jerk
-  /// counts for dmp2j alone), 0 < x ≤ 1 or φ finite.
+  /// Enters the primitive: continues from a state at a phase of it, which the caller vouches for: D finite values each (the jerk
+  /// counts for dmp2j alone), 0 < x ≤ 1 or φ finite. Wishes that cannot be met from there are dropped (see wishes_hold).
   void reinitialise(const Sample& from, double phase, const JoinSettings& join) noexcept;
+  /// Continues the primitive from another state where it is, with the weights as learned; likewise.
+  void resume(const Sample& from) noexcept;
   /// Advances by dt [s] ≥ 0. Exact in the linear part, of fourth order in the forcing.
   void step(double dt) noexcept;
 
   /// Changes on the way; the execution continues from its present state by the method it was last
-  /// re-initialised with. False, and nothing is changed, where a value is not finite or out of range.
+  /// re-initialised with. False, and nothing is changed, where a value is not finite or out of range, or what is wished could no
+  /// longer be met.
   bool set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept;
   bool set_tau(double tau) noexcept;              // [s] > 0
   bool set_amplitude(double amplitude) noexcept;  // of a rhythmic primitive's forcing; 1 as learned
+  /// Makes or moves a wish. @param which  its index; wishes(): one more, of most_wishes at most
+  bool set_wish(int which, const Wish& wish) noexcept;
+  /// Takes back all wishes that are to come; the motion stays what it is.
+  void drop_wishes() noexcept;
+
+  int wishes() const noexcept { return wishes_; }  // so far, those that are over included
+  /// False where wishes were dropped: the primitive was entered, or resumed, in a state from where they could not be met.
+  bool wishes_hold() const noexcept { return wishes_hold_; }
+  /// What the wishes cost that were made by the last entry or change; valid until the next.
+  const Price& price() const noexcept { return price_; }
+  /// What a wish would cost if it were made now; nothing is changed.
+  /// @return  valid until the next change or question
+  const Price& price_of(int which, const Wish& wish) noexcept;
 
   /// The present state without the jerk.
   const Sample& sample() const noexcept { return sample_; }
@@ -79,13 +121,46 @@ class Execution {
     double value, rate;
   };
 
-  void continue_from(const Sample& from, double phase, bool at_join) noexcept;
-  void change_weights(Eigen::Index d, Forcing missing) noexcept;
+  // Every state from which the motion goes on is gone on from in two steps: what it takes is found, then it is done.
+  void begin_from(const Sample& from, double phase) noexcept;
+  bool find_from(const Sample& from, double phase, bool at_join) noexcept;
+  void make_up_for(Eigen::Index d, Forcing missing, bool by_weights) noexcept;
+  void go_on() noexcept;
+  const Sample& remember() noexcept;
+  bool go_on_or_back(const Sample& now) noexcept;
+  void go_back() noexcept;
+
+  // Wishes (wishes.cpp).
+  struct Slot {
+    Wish wish;
+    bool live = false;
+    double left = 0.0;  // [s] until its moment; ≤ 0 where it is over or not wished any more
+  };
+  void make_room(int stride);
+  void take(const std::vector<Wish>& wishes, const Eigen::VectorXd& leave);
+  void assign(int which, const Wish& wish) noexcept;
+  double due_in(const Wish& wish) const noexcept;
+  void look_ahead() noexcept;
+  bool may_set(int which, const Wish& wish) const noexcept;
+  const char* unusable(const Wish& wish) const noexcept;
+  bool refuse(std::size_t i, const char* why) noexcept;
+  void hold_off_fading() noexcept;
+  double wished(std::size_t i, int order, Eigen::Index d) const noexcept;
+  bool asks_as(Eigen::Index d, Eigen::Index other) const noexcept;
+  bool find_changes() noexcept;
+  bool evaluate_rows() noexcept;
+  bool gather(Eigen::Index d) noexcept;
+  void find_change(Eigen::Index d) noexcept;
+  double right_side(std::size_t i, int order, Eigen::Index d) const noexcept;
+  void estimate_price() noexcept;
+  void look_at(int point) noexcept;
+  void arrive() noexcept;
+
   bool weights_hold() const noexcept;
   void evaluate_regressor() noexcept;
   double faded(double phase) const noexcept;
   Forcing present(Eigen::Index d) const noexcept;
-  Forcing needed(const Sample& from, Eigen::Index d) const noexcept;
+  Forcing needed(const Sample& from, double acceleration, Eigen::Index d) const noexcept;
   void advance(double dt) noexcept;
   void set_step(double dt) noexcept;
   void add_fading(double middle) noexcept;
@@ -135,9 +210,36 @@ class Execution {
   double half_step_ = 0.0;  // what half of dt does to the phase: a factor of x, an addend to φ
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
-  double joined_phase_ = 1.0;
-  CompensatedSum elapsed_;  // [s] since the last re-initialisation
+  double fade_from_ = 1.0;         // φ
+  CompensatedSum elapsed_;         // [s] since the last re-initialisation
+  double arrival_ = HUGE_VAL;      // likewise, when the motion is to stay
   Sample sample_;
+  // What wishes need.
+  std::shared_ptr<const Responses> responses_;
+  std::vector<Slot> slots_;  // with values of D numbers
+  Slot spare_;               // what a slot was before a change
+  int given_ = 0;            // by the sequence
+  int wishes_ = 0;
+  bool wishes_hold_ = true;
+  bool stays_ = false;        // has arrived
+  CompensatedSum passed_;     // [s] since the primitive began until the last re-initialisation
+  double begin_phase_ = 1.0;  // where it began
+  Eigen::VectorXd leave_;     // D, NaN where the acceleration continues
+  Eigen::Matrix<double, Eigen::Dynamic, 2> begun_;  // M, what kernels have done until now (see Responses)
+  Eigen::MatrixXd rows_;     // M × 4 of each wish: how y, ẏ, ÿ, y⃛ in units of τ answer to the weights
+  Eigen::MatrixXd free_;     // padded D × 4 of each wish: what comes of state and goal alone [SI units]
+  Eigen::MatrixXd flight_;   // padded D × 4: y − g, ẏ, e, ė on their way
+  Eigen::MatrixXd missing_;  // padded D × 2: what the weights are to make up for at the join
+  Eigen::MatrixXd delta_, by_wishes_, total_;  // padded D × padded M: Δw, the wishes' part of it, all weights
+  Eigen::Matrix<double, Eigen::Dynamic, 3> answers_;  // M, at a point of the table of responses
+  Conditions conditions_;
+  int join_rows_ = 0;       // how many of the conditions are the join's
+  Eigen::MatrixXd before_;  // what a change is taken back to, as the scalars
+  double tau_before_ = 1.0, amplitude_before_ = 1.0, fade_from_before_ = 1.0;
+  bool fading_before_ = false;
+  Price price_, offer_;  // of what is, of what was tried last
+  std::size_t refused_ = 0;
+  const char* refusal_ = "";
 };
 
 }  // namespace seam

@@ -18,3 +18,5 @@
 #include <seam/rollout.hpp>
 #include <seam/sequence.hpp>
 #include <seam/sequencer.hpp>
+#include <seam/switch.hpp>
+#include <seam/wish.hpp>

@@ -7,53 +7,10 @@
 #include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/primitive.hpp>
+#include <seam/switch.hpp>
+#include <seam/wish.hpp>
 
 namespace SEAM_API seam {
-
-/// When a primitive hands over to the next (the last one: when the sequence counts as finished).
-struct Switch {
-  /// What is waited for.
-  enum class When {
-    after,       ///< a time [s] after the primitive has begun
-    before_end,  ///< a time [s] before a discrete primitive's end, which is tau after its beginning
-    at_phase,    ///< when x has fallen to, or φ has risen to, a value (φ: its next occurrence)
-    near_goal,   ///< at the first tick with all coordinates within a distance of the goal
-    cycles,      ///< after a number of a rhythmic primitive's cycles
-    on_call,     ///< when Sequencer::hand_over is called, and not before
-  };
-
-  When when = When::before_end;  // what is waited for
-  double value = 0.0;            // [s], phase, [rad or m], or number, as `when` says
-};
-
-/// A time [s] after the primitive has begun.
-inline Switch after(double seconds) {
-  return {Switch::When::after, seconds};
-}
-/// A time [s] before a discrete primitive's end.
-inline Switch before_end(double seconds) {
-  return {Switch::When::before_end, seconds};
-}
-/// At a discrete primitive's end.
-inline Switch at_end() {
-  return before_end(0.0);
-}
-/// When x has fallen to a value in (0, 1), or φ [rad] comes to one.
-inline Switch at_phase(double phase) {
-  return {Switch::When::at_phase, phase};
-}
-/// At the first tick with all coordinates within a distance [rad or m] of the goal.
-inline Switch near_goal(double distance) {
-  return {Switch::When::near_goal, distance};
-}
-/// After a number of a rhythmic primitive's cycles, whole or not.
-inline Switch after_cycles(double cycles) {
-  return {Switch::When::cycles, cycles};
-}
-/// When Sequencer::hand_over is called.
-inline Switch on_call() {
-  return {Switch::When::on_call, 0.0};
-}
 
 /// At which phase a primitive is entered. A discrete one always at its beginning.
 struct Entry {
@@ -81,6 +38,7 @@ inline Entry least_correction() {
 ///
 ///     Sequence task;
 ///     task.then(reach).until(before_end(0.4)).then(wipe).enter(least_correction()).until(after_cycles(3)).then(away);
+///     task.then(hit).pass({{"x", 0.5}}, at(0.6)).arrive();
 class Sequence {
  public:
   /// One primitive's part.
@@ -88,6 +46,8 @@ class Sequence {
     Primitive primitive;  // a copy
     Switch until;         // when it hands over
     Entry entry;          // at which phase it is entered
+    std::vector<Wish> wishes;  // of its motion
+    Eigen::VectorXd leave;     // D, or empty: acceleration with which it begins, NaN where the predecessor's continues
   };
 
   /// Holds the start position for a time [s] ≥ 0 before the first primitive begins.
@@ -105,6 +65,24 @@ class Sequence {
   /// @throws Error  nothing appended yet, the primitive is discrete, or the phase is not finite
   Sequence& enter(Entry entry);
 
+  /// Wishes that the primitive appended last passes through a position of some coordinates at a moment (see Wish); several
+  /// are possible.
+  /// @throws Error  nothing appended yet, a name is not among its coordinates, or it cannot be, whatever the state (see Execution)
+  Sequence& pass(const Values& position, Switch when);
+  /// Wishes that it comes to a position with a velocity at a moment, and hands over to the next right there.
+  /// @throws Error  likewise
+  Sequence& hit(const Values& position, const Values& velocity, Switch when);
+  /// Wishes that it is at its goal and at rest at a moment, and stays there.
+  /// @param smooth  without acceleration, too (see Wish::smooth)
+  /// @throws Error  likewise, or it is rhythmic
+  Sequence& arrive(Switch when = at_end(), bool smooth = true);
+  /// Wishes that it begins with an acceleration of some coordinates [rad/s² or m/s²], in place of the predecessor's.
+  /// @throws Error  nothing appended yet, a name is not among its coordinates, or a value is not finite
+  Sequence& leave(const Values& acceleration);
+  /// Adds a wish of the primitive appended last.
+  /// @throws Error  likewise
+  Sequence& wish(Wish wish);
+
   double start_delay() const { return start_delay_; }        // [s]
   const std::vector<Step>& steps() const { return steps_; }  // in their order
   /// Coordinate names, those of the first primitive.
@@ -118,6 +96,7 @@ class Sequence {
 
  private:
   Step& last(const char* caller);
+  Eigen::VectorXd named(const Values& values, const char* caller);
 
   std::vector<Step> steps_;
   double start_delay_ = 0.0;
@@ -125,17 +104,5 @@ class Sequence {
 
 /// The phase that an entry means; NaN for least_correction, which depends on the motion.
 double phase_of(const Entry& entry, const Basis& basis) noexcept;
-
-/// How far a primitive has come.
-struct Reached {
-  double tau = 1.0;     // [s] what it is now
-  double time = 0.0;    // [s] since it began
-  double phase = 0.0;   // x or φ
-  double turned = 0.0;  // [rad] of φ since it began
-};
-
-/// Time [s] from a primitive's beginning until its switch is due, if it goes on from where it is with its present tau;
-/// infinite where that depends on the motion.
-double due(const Switch& until, const Basis& basis, const Reached& now) noexcept;
 
 }  // namespace seam

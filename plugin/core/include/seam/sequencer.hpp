@@ -26,6 +26,7 @@ struct JoinEvent {
   Eigen::VectorXd acceleration_after;   // D
   Eigen::VectorXd jerk_before;          // D
   Eigen::VectorXd jerk_after;           // D
+  Price price;                          // of what is wished of the primitive
 };
 
 /// Plays a sequence: steps the running primitive, and joins the next to it at exactly the time of the switch, inside
@@ -34,14 +35,17 @@ struct JoinEvent {
 ///
 /// When the last switch has been due a discrete primitive goes on towards its goal; a rhythmic one is followed by a
 /// motion that settles at its goal, joined like any other.
+/// What a primitive's wishes cost is known when it begins (JoinEvent::price). To know it before the arm moves, play a second Sequencer
+/// without an arm (see rollout) and look at its joins.
+///
 /// Construction, `append` and `replace` allocate; nothing else does, nor throws. `append` and `replace` also let go of
 /// the primitives that have been played and of all but the latest joins, so that an app may append for days; indices
 /// go on counting.
 class Sequencer {
  public:
   /// @param start  state to begin in, usually at rest where the arm is; it is joined to as well
-  /// @throws Error  the sequence is empty, start has other dimensions or is not finite, or it is not at rest where the
-  ///                first primitive is delayed
+  /// @throws Error  the sequence is empty, start has other dimensions or is not finite, it is not at rest where the
+  ///                first primitive is delayed, or a wish cannot be met by this method whatever the state
   Sequencer(const Sequence& sequence, const JoinSettings& join, const Sample& start);
 
   /// Advances by dt [s] ≥ 0.
@@ -63,6 +67,23 @@ class Sequencer {
   /// beginning waits there, at rest. False where the state will not do.
   bool reinitialise(const Sample& at) noexcept;
 
+  /// Makes or moves a wish of what runs now (see Execution and Wish), e.g. 30 times a second as a camera sees it. One that is to hand over
+  /// moves the switch, too.
+  /// @param which  its index among the primitive's wishes, those of its sequence first; wishes(): one more
+  /// @return  false, and no change, where it cannot be, or nothing runs
+  bool set_wish(int which, const Wish& wish) noexcept;
+  /// Takes back all wishes of what runs now that are to come; the motion stays what it is.
+  void drop_wishes() noexcept;
+  /// What a wish of what runs now would cost if it were made now; nothing is changed. Not possible where nothing runs.
+  /// @return  valid until the next change or question
+  const Price& price_of(int which, const Wish& wish) noexcept;
+  /// What the wishes of what runs now, or runs first, cost; likewise.
+  const Price& price() const noexcept { return first_or_now().price(); }
+  /// Wishes of what runs now, or runs first, so far.
+  int wishes() const noexcept { return first_or_now().wishes(); }
+  /// False where they were dropped, since the primitive began in a state from where they could not be met.
+  bool wishes_hold() const noexcept { return first_or_now().wishes_hold(); }
+
   /// Adds a sequence's primitives behind the last one. Its start delay is ignored.
   /// @throws Error  its coordinates or reference orientation differ
   void append(const Sequence& sequence);
@@ -77,11 +98,11 @@ class Sequencer {
   /// The present state in real time with the jerk, also while the rate moves (see TimeScale).
   const Sample& state() noexcept;
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
+  /// Time of the motion since what runs now began [s], from which the times of its switch and its wishes count.
+  double own_time() const noexcept { return own_time_; }
   double rate() const noexcept { return scale_.rate(); }  // of the sequence's time to real time
   /// Goal of what runs now, or runs first.
-  Eigen::Map<const Eigen::VectorXd> goal() const noexcept {
-    return running_ < 0 ? items_.front().execution.goal() : now().goal();
-  }
+  Eigen::Map<const Eigen::VectorXd> goal() const noexcept { return first_or_now().goal(); }
   int running() const noexcept {
     return running_;
   }  // index of the primitive; -1 while still waiting
@@ -118,6 +139,9 @@ class Sequencer {
   void rescale() noexcept;
   const Execution& now() const noexcept { return settling_ ? *item().rest : item().execution; }
   Execution& now() noexcept { return settling_ ? *item().rest : item().execution; }
+  const Execution& first_or_now() const noexcept {
+    return running_ < 0 ? items_.front().execution : now();
+  }
   /// How many have not begun yet.
   int to_come() const noexcept { return first_ + static_cast<int>(items_.size()) - running_ - 1; }
   void require_joinable(const Sequence& sequence) const;
@@ -149,6 +173,7 @@ class Sequencer {
   double entry_phase_ = 0.0;  // of what runs now
   int running_ = -1;
   bool finished_ = false;
+  Price nothing_runs_;  // of a wish that cannot be
   bool settling_ = false;
 };
 
