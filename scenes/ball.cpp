@@ -30,13 +30,17 @@ Ball read_flight(const YamlEntry& entry) {
   return ball;
 }
 
-Event hit_of(const Forecast& forecast, double at, const Scene& scene) {
+Event hit_of(const Forecast& forecast, double at, const Scene& scene, double scene_ball_caught) {
   Event event;
   event.at = at;
   event.goal =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(scene.sequence.coordinates().size()),
                                 std::numeric_limits<double>::quiet_NaN());
+  event.what = Event::What::hit;
+  event.velocity = event.goal;
   event.goal.head<3>() = forecast.position();
+  event.velocity.head<3>() = forecast.velocity();
+  event.when = scene_ball_caught;
   return event;
 }
 
@@ -57,7 +61,7 @@ void watch(const YamlEntry& entry, const Ball& ball, Scene& scene) {
     Eigen::Vector3d place = ball.position(times[i]);
     for (double& seen : place) seen += noise * random.normal();
     forecast.see(times[i], place);
-    if (i + 1 >= least) scene.events.push_back(hit_of(forecast, times[i], scene));
+    if (i + 1 >= least) scene.events.push_back(hit_of(forecast, times[i], scene, ball.caught));
   }
   sort_by_time(scene.events);
 }

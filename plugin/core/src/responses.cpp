@@ -10,15 +10,16 @@ namespace seam {
 
 namespace {
 
-constexpr double least_phase = 0.01;                // where a discrete table ends
-constexpr double shortest = 1.25, longest = 4.0;    // but no sooner and no later, in tau
-constexpr double most_entries = 1e5;                // kernels times panels
-constexpr double transitions = 1.0, settling = 3.0;  // in a panel, at most: of the kernels, of the system
+constexpr double least_phase = 0.01;              // where a discrete table ends
+constexpr double shortest = 1.25, longest = 4.0;  // but no sooner and no later, in tau
+constexpr double most_entries = 1e5;              // kernels times panels
+constexpr double transitions = 1.0,
+                 settling = 3.0;  // in a panel, at most: of the kernels, of the system
 
 // Gauss's rule of eight nodes on [0, 1].
-constexpr std::array<double, 8> nodes{
-    0.019855071751231884, 0.10166676129318664, 0.2372337950418355, 0.4082826787521751,
-    0.5917173212478249,   0.7627662049581645,  0.8983332387068134, 0.9801449282487681};
+constexpr std::array<double, 8> nodes{0.019855071751231884, 0.10166676129318664, 0.2372337950418355,
+                                      0.4082826787521751,   0.5917173212478249,  0.7627662049581645,
+                                      0.8983332387068134,   0.9801449282487681};
 constexpr std::array<double, 8> shares{
     0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918099,
     0.18134189168918099, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};

@@ -15,10 +15,10 @@ namespace seam {
 
 namespace {
 
-constexpr int orders = 4;              // y, ẏ, ÿ, y⃛
-constexpr double least_share = 0.2;    // of a wish's row outside of those before it
-constexpr double independent = 1e-9;   // likewise of the join's rows
-constexpr double over = 1e-9;          // [s] a moment that is nearer has come
+constexpr int orders = 4;             // y, ẏ, ÿ, y⃛
+constexpr double least_share = 0.2;   // of a wish's row outside of those before it
+constexpr double independent = 1e-9;  // likewise of the join's rows
+constexpr double over = 1e-9;         // [s] a moment that is nearer has come
 constexpr double free = std::numeric_limits<double>::quiet_NaN();
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -150,8 +150,8 @@ bool Execution::refuse(std::size_t i, const char* why) noexcept {
 
 // Δw, for the join and for all wishes that are to come.
 bool Execution::find_changes() noexcept {
-  const bool asked = std::any_of(slots_.begin(), slots_.end(),
-                                 [](const Slot& slot) { return slot.left > 0.0; });
+  const bool asked =
+      std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.left > 0.0; });
   offer_.possible = true;
   offer_.deviation.setZero();
   offer_.acceleration.setZero();
@@ -218,7 +218,8 @@ bool Execution::gather(Eigen::Index d) noexcept {
       if (std::isnan(wished(i, order, d))) continue;
       if (conditions_.add(rows_.col(column), least_share)) continue;
       return refuse(i,
-                    "asks too much of the kernels: it is too near to the beginning or to another wish, or they contradict "
+                    "asks too much of the kernels: it is too near to the beginning or to another "
+                    "wish, or they contradict "
                     "each other, or weights have lost their hold, or there are too few kernels");
     }
   }
@@ -273,8 +274,7 @@ void Execution::look_at(int point) noexcept {
   responses_->at_point(point, responses_->at_phase(phase_), begun_, answers_);
   const int M = basis_.count();
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const Eigen::RowVector3d answer =
-        amplitude_ * total_.row(d).head(M).lazyProduct(answers_);
+    const Eigen::RowVector3d answer = amplitude_ * total_.row(d).head(M).lazyProduct(answers_);
     const double acceleration = answer(2) + flight_(d, 2) - gains_.K * (answer(0) + flight_(d, 0)) -
                                 gains_.D * (answer(1) + tau_ * flight_(d, 1));
     const double deviation = amplitude_ * by_wishes_.row(d).head(M).dot(answers_.col(0));

@@ -210,9 +210,9 @@ class Execution {
   double half_step_ = 0.0;  // what half of dt does to the phase: a factor of x, an addend to φ
   double entry_phase_ = 1.0;
   double phase_ = 1.0;
-  double fade_from_ = 1.0;         // φ
-  CompensatedSum elapsed_;         // [s] since the last re-initialisation
-  double arrival_ = HUGE_VAL;      // likewise, when the motion is to stay
+  double fade_from_ = 1.0;     // φ
+  CompensatedSum elapsed_;     // [s] since the last re-initialisation
+  double arrival_ = HUGE_VAL;  // likewise, when the motion is to stay
   Sample sample_;
   // What wishes need.
   std::shared_ptr<const Responses> responses_;
@@ -225,12 +225,15 @@ class Execution {
   CompensatedSum passed_;     // [s] since the primitive began until the last re-initialisation
   double begin_phase_ = 1.0;  // where it began
   Eigen::VectorXd leave_;     // D, NaN where the acceleration continues
-  Eigen::Matrix<double, Eigen::Dynamic, 2> begun_;  // M, what kernels have done until now (see Responses)
-  Eigen::MatrixXd rows_;     // M × 4 of each wish: how y, ẏ, ÿ, y⃛ in units of τ answer to the weights
-  Eigen::MatrixXd free_;     // padded D × 4 of each wish: what comes of state and goal alone [SI units]
+  Eigen::Matrix<double, Eigen::Dynamic, 2>
+      begun_;             // M, what kernels have done until now (see Responses)
+  Eigen::MatrixXd rows_;  // M × 4 of each wish: how y, ẏ, ÿ, y⃛ in units of τ answer to the weights
+  Eigen::MatrixXd
+      free_;  // padded D × 4 of each wish: what comes of state and goal alone [SI units]
   Eigen::MatrixXd flight_;   // padded D × 4: y − g, ẏ, e, ė on their way
   Eigen::MatrixXd missing_;  // padded D × 2: what the weights are to make up for at the join
-  Eigen::MatrixXd delta_, by_wishes_, total_;  // padded D × padded M: Δw, the wishes' part of it, all weights
+  Eigen::MatrixXd delta_, by_wishes_,
+      total_;  // padded D × padded M: Δw, the wishes' part of it, all weights
   Eigen::Matrix<double, Eigen::Dynamic, 3> answers_;  // M, at a point of the table of responses
   Conditions conditions_;
   int join_rows_ = 0;       // how many of the conditions are the join's
