@@ -43,11 +43,12 @@ class Sequence {
  public:
   /// One primitive's part.
   struct Step {
-    Primitive primitive;  // a copy
-    Switch until;         // when it hands over
-    Entry entry;          // at which phase it is entered
+    Primitive primitive;       // a copy
+    Switch until;              // when it hands over
+    Entry entry;               // at which phase it is entered
     std::vector<Wish> wishes;  // of its motion
-    Eigen::VectorXd leave;     // D, or empty: acceleration with which it begins, NaN where the predecessor's continues
+    Eigen::VectorXd
+        leave;  // D, or empty: acceleration with which it begins, NaN where the predecessor's continues
   };
 
   /// Holds the start position for a time [s] ≥ 0 before the first primitive begins.
