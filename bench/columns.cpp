@@ -1,6 +1,7 @@
 #include "bench/columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -19,6 +20,34 @@ using Metric = double RunMetrics::*;
 // Outcomes that have a column of their own in the overview, or are told only where they are not 0.
 constexpr const char* limited = "limited_share";
 constexpr const char* stopped = "stopped_share";
+// Those that explain others: they are in their scene's own table.
+constexpr std::array<const char*, 3> explaining{"wave_peak_m", "ringing_nm", "resonance_hz"};
+
+// How the units that end an outcome's name are written: in tables, and for people with their factor.
+struct Unit {
+  std::string ending, heading, shown;
+  double factor;
+};
+const std::array<Unit, 6> units{{{"_share", "", "{:.3g} %", 100.0},
+                                 {"_m_s", " [m/s]", "{:.1f} mm/s", 1e3},
+                                 {"_m", " [m]", "{:.1f} mm", 1e3},
+                                 {"_s", " [s]", "{:.1f} ms", 1e3},
+                                 {"_nm", " [N·m]", "{:.3g} N·m", 1.0},
+                                 {"_hz", " [Hz]", "{:.3g} Hz", 1.0}}};
+
+// "miss_m" as "miss" and metres; of an unknown unit as it is.
+std::pair<std::string, Unit> split(std::string name) {
+  Unit unit{"", "", "{:.3g}", 1.0};
+  for (const Unit& known : units) {
+    const std::size_t length = known.ending.size();
+    if (name.size() <= length || name.substr(name.size() - length) != known.ending) continue;
+    name.resize(name.size() - length);
+    unit = known;
+    break;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, unit};
+}
 
 Column metric(const char* name, const char* heading, const char* format, Metric of) {
   return {name, heading, format, [of](const Run& run) { return run.metrics.*of; }};
@@ -31,17 +60,10 @@ double outcome(const Run& run, const std::string& name) {
 }
 
 // "spilled_share" as "spilled", "wave_peak_m" as "wave peak [m]".
-std::string heading_of(std::string name) {
+std::string heading_of(const std::string& name) {
   if (name == limited) return "share of time at a limit of the drives";
-  std::string unit;
-  for (const char* ending : {"_share", "_m"}) {
-    const std::size_t length = std::string(ending).size();
-    if (name.size() <= length || name.substr(name.size() - length) != ending) continue;
-    name.resize(name.size() - length);
-    if (ending[1] == 'm') unit = " [m]";
-  }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name + unit;
+  const auto [words, unit] = split(name);
+  return words + unit.heading;
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -205,18 +227,15 @@ Rows cells(const Comparison& comparison) {
   return rows;
 }
 
-bool is_share(const Outcome& outcome) {
-  return outcome.name.find("_share") != std::string::npos;
+ShownOutcome shown_outcome(const Outcome& outcome) {
+  const auto [words, unit] = split(outcome.name);
+  if (std::isnan(outcome.value)) return {words, "n/a"};
+  return {words, fmt::format(fmt::runtime(unit.shown), unit.factor * outcome.value)};
 }
 
-ShownOutcome shown_outcome(const Outcome& outcome) {
-  const std::size_t ending = outcome.name.rfind('_');
-  std::string name = outcome.name.substr(0, ending);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  if (is_share(outcome)) return {name, fmt::format("{:.3g} %", 100.0 * outcome.value)};
-  const std::string unit = outcome.name.substr(ending + 1);
-  if (unit == "m") return {name, fmt::format("{:.1f} mm", 1e3 * outcome.value)};
-  return {name, fmt::format("{:.3g} {}", outcome.value, unit == "nm" ? "N·m" : "Hz")};
+bool has_a_place_elsewhere(const Outcome& outcome) {
+  return outcome.name == limited ||
+         std::find(explaining.begin(), explaining.end(), outcome.name) != explaining.end();
 }
 
 // The same scene and method on each arm, the ideal one first.
@@ -233,11 +252,11 @@ std::string of_both(const OnArms& runs, Metric of, const char* format) {
   return of_both(values);
 }
 
-// The shares that a scene adds, in words; lengths are in its own table.
+// What a scene adds, in words.
 std::string came_of(const OnArms& runs) {
   std::string text;
   for (const Outcome& of_first : runs.front()->recording.outcomes) {
-    if (!is_share(of_first) || of_first.name == limited) continue;
+    if (has_a_place_elsewhere(of_first)) continue;
     double most = 0.0;
     std::vector<std::string> values;
     for (const Run* run : runs) {

@@ -1,5 +1,7 @@
 #include "scenes/contents.hpp"
 
+#include "scenes/solids.hpp"
+
 namespace seam {
 
 namespace {
@@ -130,13 +132,8 @@ Geometry read_table(const YamlEntry& entry) {
   const Eigen::VectorXd edges = size.numbers(2, "edge");
   if (!(top.z() > 0.0)) at.fail("must be above the floor");
   if (!(edges.minCoeff() > 0.0)) size.fail("must be > 0");
-  Geometry box;
-  box.type = Geometry::Type::box;
-  box.size << edges, top.z();
-  box.X_body_shape = Eigen::Translation3d(top - Eigen::Vector3d(0.0, 0.0, 0.5 * top.z()));
-  box.colour << 0.83, 0.78, 0.71, 1.0;
-  box.has_colour = true;
-  return box;
+  const Eigen::Isometry3d X(Eigen::Translation3d(top - Eigen::Vector3d(0.0, 0.0, 0.5 * top.z())));
+  return coloured(box(X, {edges.x(), edges.y(), top.z()}), 0.83, 0.78, 0.71);
 }
 
 }  // namespace seam

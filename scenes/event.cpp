@@ -53,11 +53,7 @@ Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordin
 void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates, Noise& noise_source,
            std::vector<Event>& events) {
   entry.only({"from", "to", "every", "goal", "velocity", "noise"});
-  const double from = entry.at("from").not_negative();
-  const double to = entry.at("to").not_negative();
-  const double every = entry.at("every").positive();
-  if (to < from) entry.at("to").fail(entry.at("to").text() + ", must be >= from");
-  if ((to - from) / every > most_events) entry.at("every").fail("gives more than 1e5 events");
+  const std::vector<double> times = picture_times(entry);
   const Eigen::VectorXd goal = read_goal(entry.at("goal"), coordinates);
   Eigen::VectorXd velocity = Eigen::VectorXd::Zero(goal.size());
   if (const auto moving = entry.find("velocity")) {
@@ -66,11 +62,10 @@ void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates, 
   }
   const auto noise = entry.find("noise");
   const double spread = noise ? noise->not_negative() : 0.0;
-  const int pictures = static_cast<int>((to - from) / every + 1e-9) + 1;
-  for (int i = 0; i < pictures; ++i) {
+  for (const double time : times) {
     Event event;
-    event.at = from + i * every;
-    event.goal = goal + (event.at - from) * velocity;
+    event.at = time;
+    event.goal = goal + (time - times.front()) * velocity;
     for (double& seen : event.goal) seen += spread * noise_source.normal();
     events.push_back(std::move(event));
   }
@@ -94,6 +89,22 @@ bool Event::happen(Sequencer& sequencer) const noexcept {
   return false;
 }
 
+std::vector<double> picture_times(const YamlEntry& entry) {
+  const double from = entry.at("from").not_negative();
+  const double to = entry.at("to").not_negative();
+  const double every = entry.at("every").positive();
+  if (to < from) entry.at("to").fail(entry.at("to").text() + ", must be >= from");
+  if ((to - from) / every > most_events) entry.at("every").fail("gives more than 1e5 events");
+  std::vector<double> times(static_cast<std::size_t>((to - from) / every + 1e-9) + 1);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = from + static_cast<double>(i) * every;
+  return times;
+}
+
+void sort_by_time(std::vector<Event>& events) {
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.at < b.at; });
+}
+
 std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::string>& coordinates,
                                int seed) {
   std::vector<Event> events;
@@ -105,8 +116,7 @@ std::vector<Event> read_events(const YamlEntry& entry, const std::vector<std::st
       events.push_back(read_event(item, coordinates));
     if (static_cast<double>(events.size()) > most_events) item.fail("more than 1e5 events");
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const Event& a, const Event& b) { return a.at < b.at; });
+  sort_by_time(events);
   return events;
 }
 

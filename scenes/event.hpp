@@ -25,6 +25,13 @@ struct Event {
   bool happen(Sequencer& sequencer) const noexcept;
 };
 
+/// Times [s] of a camera's pictures: the keys `from`, `to` and `every` of an entry.
+/// @throws Error  names file, line and key
+std::vector<double> picture_times(const YamlEntry& entry);
+
+/// As they happen; those of one time stay in their order.
+void sort_by_time(std::vector<Event>& events);
+
 /// Reads the list `events:` of a scene (see scenes/README.md), sorted by time. One that is seen by a camera becomes an
 /// event per picture, with normally distributed noise on each coordinate that it names.
 /// @param seed  of the noise

@@ -25,14 +25,6 @@ Camera camera_around(const Replay& replay) {
   return {box.center() + 1.8 * box.diagonal().norm() * direction, box.center()};
 }
 
-// What the sequence moves; in joint space the last link.
-Frame tool_frame(const Scene& scene) {
-  if (!scene.tool) return scene.robot.frames.back();
-  Frame frame = scene.robot.frame(scene.tool->link);
-  frame.X_body_frame = frame.X_body_frame * scene.tool->X_link_tool;
-  return frame;
-}
-
 }  // namespace
 
 Film::Film(const Scene& scene, Join method, const Robot& robot,
@@ -42,7 +34,7 @@ Film::Film(const Scene& scene, Join method, const Robot& robot,
       robot_(robot),
       objects_(objects),
       replay_(replay),
-      tool_(tool_frame(scene)),
+      tool_(scene.tool_frame()),
       dt_(dt) {
   replay.scene = scene.name;
   replay.method = to_string(method);

@@ -10,6 +10,7 @@
 
 #include "plugin/arm/src/bullet_types.hpp"
 #include "plugin/bullet/src/shapes.hpp"
+#include "scenes/solids.hpp"
 #include <seam/error.hpp>
 
 namespace seam {
@@ -21,14 +22,6 @@ constexpr int sides = 16;
 void require(double value, const char* what, const char* name) {
   if (!(std::isfinite(value) && value > 0.0))
     throw Error(what, std::string(name) + " " + std::to_string(value) + ", must be > 0");
-}
-
-Geometry box(const Eigen::Isometry3d& X, const Eigen::Vector3d& edges) {
-  Geometry geometry;
-  geometry.type = Geometry::Type::box;
-  geometry.X_body_shape = X;
-  geometry.size = edges;
-  return geometry;
 }
 
 Inertial hollow(const VesselSettings& vessel) {

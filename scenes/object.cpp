@@ -26,7 +26,7 @@ class SloshingLiquid final : public Object {
         liquid_(robot, settings_),
         wave_(Eigen::VectorXd::Zero(ticks)) {}
 
-  void pre_tick(Eigen::Index tick) override {
+  void pre_tick(Eigen::Index tick, double) override {
     liquid_.pre_tick();
     wave_(tick) = liquid_.wave();
     peak_ = std::max(peak_, wave_(tick));
@@ -72,7 +72,7 @@ class PouredGrains final : public Object {
         grains_(robot.world(), robot.X_world_frame(bottle_), pouring_.bottle, pouring_.grains,
                 scene.seed) {}
 
-  void pre_tick(Eigen::Index) override {}
+  void pre_tick(Eigen::Index, double) override {}
   void appear(Replay& replay) override {
     part_ = replay.parts.size();
     replay.parts.push_back({"glass", {}, pouring_.glass});
@@ -86,7 +86,7 @@ class PouredGrains final : public Object {
       replay.grains->positions.block<1, 3>(frame, 3 * i) = grains_.position(i).cast<float>();
   }
   void finish(Recording& recording) const override {
-    recording.outcomes.push_back({"poured_share", grains_.share_in(glass_)});
+    recording.outcomes.push_back({"poured_share", grains_.share_in(glass_), true});
   }
 
  private:
@@ -104,7 +104,7 @@ class MovingGlass final : public Object {
  public:
   explicit MovingGlass(const Scene& scene) : scene_(scene) {}
 
-  void pre_tick(Eigen::Index) override {}
+  void pre_tick(Eigen::Index, double) override {}
   void finish(Recording&) const override {}
   void appear(Replay& replay) override {
     part_ = replay.parts.size();
@@ -135,11 +135,14 @@ bool has_moving_goal(const Scene& scene) {
 }  // namespace
 
 std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
-                                                  std::size_t place) {
+                                                  double dt, std::size_t place) {
   std::vector<std::unique_ptr<Object>> objects;
   if (scene.liquid) objects.push_back(std::make_unique<SloshingLiquid>(scene, robot, ticks));
   if (scene.pouring) objects.push_back(std::make_unique<PouredGrains>(scene, robot, place));
   if (has_moving_goal(scene)) objects.push_back(std::make_unique<MovingGlass>(scene));
+  if (!scene.gates.empty()) objects.push_back(make_gates(scene, robot));
+  if (!scene.obstacles.empty()) objects.push_back(make_obstacles(scene, robot));
+  if (scene.ball) objects.push_back(make_ball(scene, robot, ticks, dt));
   return objects;
 }
 

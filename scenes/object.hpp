@@ -15,7 +15,8 @@ namespace seam {
 class Object {
  public:
   virtual ~Object() = default;
-  virtual void pre_tick(Eigen::Index tick) = 0;
+  /// @param time  [s] since the run began
+  virtual void pre_tick(Eigen::Index tick, double time) = 0;
   /// Adds its parts, before the first tick, and says where they are; `film` follows a tick's `pre_tick`.
   virtual void appear(Replay&) {}
   virtual void film(Eigen::Index /*frame*/, Replay&) const {}
@@ -25,8 +26,9 @@ class Object {
 
 /// What a scene has of them.
 /// @param robot   stands where the scene begins, and must outlive them
+/// @param ticks   of the run, each of dt [s]
 /// @param place   index of the glass's place
 std::vector<std::unique_ptr<Object>> make_objects(const Scene& scene, Robot& robot, int ticks,
-                                                  std::size_t place);
+                                                  double dt, std::size_t place);
 
 }  // namespace seam

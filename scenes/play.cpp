@@ -135,7 +135,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
 
   const int ticks = scene.ticks(dt);
   Recording recording = room_for(scene, ticks);
-  const auto objects = make_objects(scene, robot, ticks, place);
+  const auto objects = make_objects(scene, robot, ticks, dt, place);
   std::optional<Film> film;
   if (replay) film.emplace(scene, method, robot, objects, dt, ticks, *replay);
   Joints joints(scene, robot, ticks);
@@ -144,7 +144,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
   for (int k = 0; k < ticks; ++k) {
     for (; event != scene.events.end() && event->at <= (k + same_tick) * dt; ++event)
       happen(*event, scene, k * dt, controller.sequencer(), recording.joins);
-    for (const auto& object : objects) object->pre_tick(k);
+    for (const auto& object : objects) object->pre_tick(k, k * dt);
     if (film) film->pre_tick(k);
     joints.look(k);
     world->stepSimulation(dt, 0);
@@ -167,9 +167,8 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
 // The worse of what came of two runs.
 void keep_worse(const std::vector<Outcome>& other, std::vector<Outcome>& outcomes) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const bool more_is_better = outcomes[i].name == "poured_share";
-    outcomes[i].value = more_is_better ? std::min(outcomes[i].value, other[i].value)
-                                       : std::max(outcomes[i].value, other[i].value);
+    outcomes[i].value = outcomes[i].more_is_better ? std::min(outcomes[i].value, other[i].value)
+                                                   : std::max(outcomes[i].value, other[i].value);
   }
 }
 

@@ -129,6 +129,11 @@ void hasten(double factor, Scene& scene) {
     dropout.from /= factor;
     dropout.to /= factor;
   }
+  for (Obstacle& obstacle : scene.obstacles) {
+    obstacle.leaves /= factor;
+    obstacle.over /= factor;
+  }
+  if (scene.ball) scene.ball->hasten(factor);
   scene.duration /= factor;
 }
 
@@ -153,6 +158,13 @@ ControllerSettings Scene::controller() const {
   return settings;
 }
 
+Frame Scene::tool_frame() const {
+  if (!tool) return robot.frames.back();
+  Frame frame = robot.frame(tool->link);
+  frame.X_body_frame = frame.X_body_frame * tool->X_link_tool;
+  return frame;
+}
+
 int Scene::ticks(double step) const {
   return static_cast<int>(std::lround(duration / step));
 }
@@ -164,7 +176,8 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   root.only({"format",        "title",       "robot",   "arm",    "tool",     "liquid",   "pouring",
              "sequence",      "events",      "control", "known",  "actuator", "friction", "elastic",
              "rotor_inertia", "model_error", "sensors", "guard",  "method",   "seed",     "dt",
-             "settle",        "duration",    "speed",   "camera", "table",    "figure"});
+             "settle",        "duration",    "speed",   "camera", "table",    "figure",   "gates",
+             "obstacles",     "ball"});
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").text();
@@ -186,6 +199,9 @@ Scene Scene::read(const std::string& path, const std::vector<std::string>& overr
   if (const auto events = root.find("events"))
     scene.events = read_events(*events, scene.sequence.coordinates(), scene.seed);
   scene.duration = read_duration(root, scene.sequence);
+  if (const auto gates = root.find("gates")) scene.gates = read_gates(*gates);
+  if (const auto obstacles = root.find("obstacles")) scene.obstacles = read_obstacles(*obstacles);
+  if (const auto ball = root.find("ball")) read_ball(*ball, scene);
   if (const auto speed = root.find("speed")) {
     const double factor = read_speed(*speed);
     at_key(*speed, [&] { hasten(factor, scene); });

@@ -6,10 +6,13 @@
 
 #include <Eigen/Core>
 
+#include "scenes/ball.hpp"
 #include "scenes/camera.hpp"
 #include "scenes/event.hpp"
+#include "scenes/gates.hpp"
 #include "scenes/grains.hpp"
 #include "scenes/liquid.hpp"
+#include "scenes/obstacles.hpp"
 #include <seam/controller.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
@@ -50,6 +53,9 @@ struct Scene {
   std::optional<LiquidSettings> liquid;                            // that moves
   Eigen::Isometry3d X_link_glass = Eigen::Isometry3d::Identity();  // of its glass, in the tool's
   std::optional<Pouring> pouring;
+  std::vector<Gate> gates;
+  std::vector<Obstacle> obstacles;
+  std::optional<Ball> ball;
   Eigen::VectorXd start;             // [rad] joint positions at rest
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
@@ -73,6 +79,8 @@ struct Scene {
   /// The sequence for a place of the glass: all goals are moved, the weights are those learned.
   Sequence sequence_at(std::size_t place) const;
   ControllerSettings controller() const;
+  /// What the sequence moves: the tool; in joint space the last link.
+  Frame tool_frame() const;
 
   /// Reads a scene file (the format is explained in scenes/README.md), in which some entries are set anew: see
   /// YamlEntry::read. It may name files in its own folder and below, in seam's own scenes and assets, and in those of

@@ -29,8 +29,9 @@ struct Signal {
 
 /// What came of a run as a whole; the name is a metric's and carries its unit.
 struct Outcome {
-  std::string name;  // as in `poured_share`
-  double value;      // in the unit that the name carries
+  std::string name;             // as in `poured_share`
+  double value;                 // in the unit that the name carries
+  bool more_is_better = false;  // else less is
 };
 
 /// What a run on a robot with n joints left behind: one row per tick, the state before the tick and
