@@ -21,11 +21,26 @@ Eigen::VectorXd read_goal(const YamlEntry& entry, const std::vector<std::string>
   return goal;
 }
 
-constexpr const char* kinds = "must have one of goal, tau, amplitude, rate, hand_over";
+constexpr const char* kinds = "must have one of goal, tau, amplitude, rate, hand_over, pass, hit";
 constexpr double most_events = 1e5;
 
+// What goes with a wish alone.
+void read_wish(const YamlEntry& entry, const std::vector<std::string>& coordinates, Event& event) {
+  const auto velocity = entry.find("velocity");
+  if (event.what == Event::What::pass || event.what == Event::What::hit) {
+    event.when = entry.at("when").number();
+    if (event.when <= event.at) entry.at("when").fail("must be later than at");
+    if (velocity) event.velocity = read_goal(*velocity, coordinates);
+    if (const auto which = entry.find("wish")) event.which = which->count(0);
+    return;
+  }
+  for (const char* key : {"velocity", "when", "wish"})
+    if (const auto given = entry.find(key)) given->fail("goes with pass and hit alone");
+}
+
 Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordinates) {
-  entry.only({"at", "goal", "tau", "amplitude", "rate", "over", "hand_over"});
+  entry.only({"at", "goal", "tau", "amplitude", "rate", "over", "hand_over", "pass", "hit",
+              "velocity", "when", "wish"});
   Event event;
   event.at = entry.at("at").not_negative();
   int given = 0;
@@ -41,7 +56,10 @@ Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordin
   if (const auto size = is("amplitude", Event::What::amplitude)) event.value = size->number();
   if (const auto rate = is("rate", Event::What::rate)) event.value = rate->not_negative();
   if (const auto now = is("hand_over", Event::What::hand_over)) now->choice({"now"});
+  if (const auto pass = is("pass", Event::What::pass)) event.goal = read_goal(*pass, coordinates);
+  if (const auto hit = is("hit", Event::What::hit)) event.goal = read_goal(*hit, coordinates);
   if (given == 0) entry.fail(kinds);
+  read_wish(entry, coordinates, event);
   if (event.what == Event::What::rate)
     event.over = entry.at("over").positive();
   else if (const auto over = entry.find("over"))
@@ -85,6 +103,13 @@ bool Event::happen(Sequencer& sequencer) const noexcept {
       return sequencer.set_rate(value, over);
     case What::hand_over:
       return sequencer.hand_over();
+    case What::pass:
+    case What::hit: {
+      Wish wish =
+          seam::hit(goal, velocity, seam::at(when - (sequencer.time() - sequencer.own_time())));
+      if (what == What::pass) wish.then = Wish::Then::go_on;
+      return sequencer.set_wish(which < 0 ? sequencer.wishes() : which, wish);
+    }
   }
   return false;
 }

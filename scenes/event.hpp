@@ -13,13 +13,16 @@ class YamlEntry;
 
 /// Something that happens to a running sequence at a time.
 struct Event {
-  enum class What { goal, tau, amplitude, rate, hand_over };
+  enum class What { goal, tau, amplitude, rate, hand_over, pass, hit };
 
   double at = 0.0;  // [s] since the run began; takes effect at the first tick then or later
   What what = What::goal;
-  Eigen::VectorXd goal;  // D; NaN where a coordinate's goal stays
-  double value = 0.0;    // tau [s], amplitude or rate
-  double over = 0.0;     // [s] in which the rate changes
+  Eigen::VectorXd goal;      // D; NaN where a coordinate's goal stays
+  double value = 0.0;        // tau [s], amplitude or rate
+  double over = 0.0;         // [s] in which the rate changes
+  Eigen::VectorXd velocity;  // of a wish, likewise, or empty
+  double when = 0.0;         // [s] since the run began: a wish's moment
+  int which = -1;            // index of the wish that is moved, or made; -1: one more
 
   /// False where the sequencer refuses it (an amplitude of a discrete primitive, say).
   bool happen(Sequencer& sequencer) const noexcept;

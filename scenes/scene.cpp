@@ -103,12 +103,14 @@ Sequence changed(const Sequence& from, double start_delay,
   to.start_after(start_delay);
   for (Sequence::Step step : from.steps()) {
     change(step);
-    const bool rhythmic = step.primitive.kind == Kind::rhythmic;
-    to.then(std::move(step.primitive));
-    if (rhythmic) to.enter(step.entry);
-    to.until(step.until);
+    to.then(std::move(step));
   }
   return to;
+}
+
+void hasten(double factor, Switch& when) {
+  if (when.when == Switch::When::after || when.when == Switch::When::before_end)
+    when.value /= factor;
 }
 
 // Plays all of it faster by a factor: every time is divided by it, tau's and events' included.
@@ -117,11 +119,18 @@ void hasten(double factor, Scene& scene) {
   const Sequence& slow = scene.sequence;
   scene.sequence = changed(slow, slow.start_delay() / factor, [&](Sequence::Step& step) {
     step.primitive = step.primitive.at_speed(factor);
-    const auto when = step.until.when;
-    if (when == Switch::When::after || when == Switch::When::before_end) step.until.value /= factor;
+    hasten(factor, step.until);
+    step.leave *= factor * factor;
+    for (Wish& wish : step.wishes) {
+      hasten(factor, wish.when);
+      wish.velocity *= factor;
+      wish.acceleration *= factor * factor;
+    }
   });
   for (Event& event : scene.events) {
     event.at /= factor;
+    event.when /= factor;
+    event.velocity *= factor;
     event.over /= factor;
     if (event.what == Event::What::tau) event.value /= factor;
   }
@@ -147,6 +156,8 @@ Sequence Scene::sequence_at(std::size_t place) const {
   if (place == 0) return sequence;
   return changed(sequence, sequence.start_delay(), [&](Sequence::Step& step) {
     step.primitive.goal.head<3>() += pouring->places[place];
+    for (Wish& wish : step.wishes)
+      if (wish.position.size() > 0) wish.position.head<3>() += pouring->places[place];
   });
 }
 

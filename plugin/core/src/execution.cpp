@@ -127,7 +127,10 @@ void Execution::begin_from(const Sample& from, double phase) noexcept {
   change().setZero();
   at(added).setZero();
   at(added_rate).setZero();
-  if (find_from(from, phase, true)) return go_on();
+  if (find_from(from, phase, true)) {
+    estimate(price_);
+    return go_on();
+  }
   wishes_hold_ = false;
   for (Slot& slot : slots_) slot.live = false;
   begin_from(from, phase);
@@ -186,7 +189,6 @@ void Execution::go_on() noexcept {
     change() += delta_;
     fading_ = fading_ || !delta_.isZero(0.0);
   }
-  std::swap(price_, offer_);
   refresh_sample();
 }
 

@@ -13,16 +13,15 @@ namespace {
 constexpr double least_phase = 0.01;              // where a discrete table ends
 constexpr double shortest = 1.25, longest = 4.0;  // but no sooner and no later, in tau
 constexpr double most_entries = 1e5;              // kernels times panels
-constexpr double transitions = 1.0,
-                 settling = 3.0;  // in a panel, at most: of the kernels, of the system
+constexpr double transitions = 0.6,
+                 settling = 1.0;  // in a panel, at most: of the kernels, of the system
 
-// Gauss's rule of eight nodes on [0, 1].
-constexpr std::array<double, 8> nodes{0.019855071751231884, 0.10166676129318664, 0.2372337950418355,
-                                      0.4082826787521751,   0.5917173212478249,  0.7627662049581645,
-                                      0.8983332387068134,   0.9801449282487681};
-constexpr std::array<double, 8> shares{
-    0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918099,
-    0.18134189168918099, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};
+// Gauss's rule of five nodes on [0, 1].
+constexpr std::array<double, 5> nodes{0.046910077030668018, 0.23076534494715845, 0.5,
+                                      0.76923465505284155, 0.95308992296933198};
+constexpr std::array<double, 5> shares{0.11846344252809454, 0.23931433524968324,
+                                       0.28444444444444444, 0.23931433524968324,
+                                       0.11846344252809454};
 
 double end_of(const Primitive& primitive) {
   if (primitive.kind == Kind::rhythmic) return 4.0 * M_PI;

@@ -94,6 +94,19 @@ Sequence& Sequence::then(Primitive primitive) {
   return *this;
 }
 
+Sequence& Sequence::then(Step step) {
+  then(std::move(step.primitive));
+  try {
+    if (steps_.back().primitive.kind == Kind::rhythmic) enter(step.entry);
+    steps_.back().leave = std::move(step.leave);
+    for (Wish& one : step.wishes) wish(std::move(one));
+    return until(step.until);
+  } catch (const Error&) {
+    steps_.pop_back();
+    throw;
+  }
+}
+
 Sequence& Sequence::until(Switch when) {
   Step& step = last("until");
   const std::string place = name(steps_.size() - 1);
@@ -145,6 +158,11 @@ Sequence& Sequence::wish(Wish wish) {
   } catch (const Error& error) {
     throw Error(name(steps_.size() - 1), error.what());
   }
+  const bool hands_over = wishes.back().then == Wish::Then::hand_over;
+  if (hands_over && std::any_of(step.wishes.begin(), step.wishes.end(),
+                                [](const Wish& one) { return one.then == Wish::Then::hand_over; }))
+    throw Error(name(steps_.size() - 1), "is to hand over at two wishes, must be at one");
+  if (hands_over) until(wishes.back().when);
   step.wishes = std::move(wishes);
   return *this;
 }
@@ -154,8 +172,7 @@ Sequence& Sequence::pass(const Values& position, Switch when) {
 }
 
 Sequence& Sequence::hit(const Values& position, const Values& velocity, Switch when) {
-  wish(seam::hit(named(position, "hit"), named(velocity, "hit"), when));
-  return until(when);
+  return wish(seam::hit(named(position, "hit"), named(velocity, "hit"), when));
 }
 
 Sequence& Sequence::arrive(Switch when, bool smooth) {

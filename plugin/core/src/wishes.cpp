@@ -7,6 +7,7 @@
 
 #include "responses.hpp"
 #include "shown.hpp"
+#include "vectors.hpp"
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
 #include <seam/quintic.hpp>
@@ -15,10 +16,11 @@ namespace seam {
 
 namespace {
 
-constexpr int orders = 4;             // y, ẏ, ÿ, y⃛
-constexpr double least_share = 0.2;   // of a wish's row outside of those before it
-constexpr double independent = 1e-9;  // likewise of the join's rows
-constexpr double over = 1e-9;         // [s] a moment that is nearer has come
+constexpr int orders = 4;  // y, ẏ, ÿ, y⃛
+constexpr double least_share[orders] = {0.2, 0.2, 0.05,
+                                        0.05};  // of a wish's row, outside of those before it
+constexpr double independent = 1e-9;            // likewise of the join's rows
+constexpr double over = 1e-9;                   // [s] a moment that is nearer has come
 constexpr double free = std::numeric_limits<double>::quiet_NaN();
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -27,6 +29,26 @@ void assign_values(const Eigen::VectorXd& from, Eigen::VectorXd& to) {
     to.setConstant(free);
   else
     to = from;
+}
+
+// Weights times answers to them: all weights with each of three, the wishes' part with the first.
+SEAM_WIDEST_VECTORS void answer(const double* weights, const double* by_wishes,
+                                const double* answers, int M, int stride,
+                                double* answered) noexcept {
+  for (int d = 0; d < stride; d += lanes) {
+    Lanes y{}, v{}, f{}, wished{};
+    for (int j = 0; j < M; ++j) {
+      const Lanes w = SEAM_CONST_LANES(weights + j * stride + d);
+      y += answers[j] * w;
+      v += answers[M + j] * w;
+      f += answers[2 * M + j] * w;
+      wished += answers[j] * SEAM_CONST_LANES(by_wishes + j * stride + d);
+    }
+    SEAM_LANES(answered + d) = y;
+    SEAM_LANES(answered + stride + d) = v;
+    SEAM_LANES(answered + 2 * stride + d) = f;
+    SEAM_LANES(answered + 3 * stride + d) = wished;
+  }
 }
 
 }  // namespace
@@ -40,6 +62,7 @@ void Execution::make_room(int stride) {
   leave_ = nothing;
   begun_.setZero(M, 2);
   answers_.setZero(M, 3);
+  answered_.setZero(stride, 4);
   rows_.setZero(M, orders * wishes);
   free_.setZero(stride, orders * wishes);
   flight_.setZero(stride, orders);
@@ -111,7 +134,7 @@ void Execution::look_ahead() noexcept {
   for (Slot& slot : slots_) {
     const double left = slot.live ? due_in(slot.wish) : 0.0;
     slot.left = left > over ? left : 0.0;
-    if (slot.left > 0.0 && slot.wish.then == Wish::Then::stay) arrival_ = elapsed_ + left;
+    if (slot.live && !stays_ && slot.wish.then == Wish::Then::stay) arrival_ = elapsed_ + slot.left;
   }
 }
 
@@ -148,22 +171,22 @@ bool Execution::refuse(std::size_t i, const char* why) noexcept {
   return false;
 }
 
+// Whether anything is to come.
+bool Execution::asked() const noexcept {
+  return std::any_of(slots_.begin(), slots_.end(),
+                     [](const Slot& slot) { return slot.left > 0.0; });
+}
+
 // Δw, for the join and for all wishes that are to come.
 bool Execution::find_changes() noexcept {
-  const bool asked =
-      std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.left > 0.0; });
-  offer_.possible = true;
-  offer_.deviation.setZero();
-  offer_.acceleration.setZero();
-  if (asked && !evaluate_rows()) return false;
-  if (asked || !missing_.isZero(0.0)) {
+  if (asked() && !evaluate_rows()) return false;
+  if (asked() || !missing_.isZero(0.0)) {
     by_wishes_.setZero();
     for (Eigen::Index d = 0; d < dimensions(); ++d) {
       if ((d == 0 || !asks_as(d, d - 1)) && !gather(d)) return false;
       find_change(d);
     }
   }
-  if (asked) estimate_price();
   return true;
 }
 
@@ -195,7 +218,7 @@ bool Execution::evaluate_rows() noexcept {
     responses_->rows(from, begun_, to, rows);
     rows *= amplitude_;
     const Propagator flight(gains_, tau_, left);
-    flight_.noalias() = hot_.middleCols<orders>(offset) * flight.Phi.transpose();
+    flight_ = hot_.middleCols<orders>(offset).lazyProduct(flight.Phi.transpose());
     auto free = free_.middleCols<orders>(column);
     free.leftCols<2>() = flight_.leftCols<2>();
     free.col(2) = (flight_.col(2) - K * free.col(0) - D * free.col(1)) / square;
@@ -216,7 +239,7 @@ bool Execution::gather(Eigen::Index d) noexcept {
     for (int order = 0; order < orders; ++order) {
       const auto column = static_cast<Eigen::Index>(orders * i) + order;
       if (std::isnan(wished(i, order, d))) continue;
-      if (conditions_.add(rows_.col(column), least_share)) continue;
+      if (conditions_.add(rows_.col(column), least_share[order])) continue;
       return refuse(i,
                     "asks too much of the kernels: it is too near to the beginning or to another "
                     "wish, or they contradict "
@@ -250,37 +273,48 @@ double Execution::right_side(std::size_t i, int order, Eigen::Index d) const noe
   return std::pow(tau_, order) * (wished(i, order, d) - free_(d, column)) - comes;
 }
 
-// Looks at the points of the table of responses, until the last wish or tau.
-void Execution::estimate_price() noexcept {
+// Looks at the points of the table of responses, until the last wish or tau. What was found has not been done yet.
+void Execution::estimate(Price& price) noexcept {
+  price.possible = true;
+  price.deviation.setZero();
+  price.acceleration.setZero();
+  if (!asked()) return;
   const double from = responses_->at_phase(phase_);
   double end = kind() == Kind::discrete ? 1.0 : 0.0;
   for (const Slot& slot : slots_) end = std::max(end, from + slot.left / tau_);
   total_ = weights() + delta_;
   if (kind() == Kind::rhythmic) total_ += change();
   flight_ = hot_.middleCols<orders>(offset);
+  answered_.setZero();
+  answered_.col(2) = at(f_start);
+  keep_worst(price);
   const double panel = responses_->panel();
   int point = static_cast<int>(from / panel) + 1;
   Propagator flight(gains_, tau_, (point * panel - from) * tau_);
   const Propagator next(gains_, tau_, panel * tau_);
-  for (; (point - 1) * panel < end && point <= responses_->panels(); ++point) {
-    for (Eigen::Index d = 0; d < dimensions(); ++d)
-      flight_.row(d) = (flight.Phi * flight_.row(d).transpose()).eval().transpose();
+  for (; (point - 0.5) * panel < end && point <= responses_->panels(); ++point) {
+    for (Eigen::Index d = 0; d < flight_.rows(); ++d) {
+      const Eigen::RowVector4d before = flight_.row(d);
+      flight_.row(d).noalias() = before * flight.Phi.transpose();
+    }
     flight = next;
-    look_at(point);
+    responses_->at_point(point, from, begun_, answers_);
+    answers_ *= amplitude_;
+    answer(total_.data(), by_wishes_.data(), answers_.data(), basis_.count(),
+           static_cast<int>(total_.rows()), answered_.data());
+    keep_worst(price);
   }
 }
 
-void Execution::look_at(int point) noexcept {
-  responses_->at_point(point, responses_->at_phase(phase_), begun_, answers_);
-  const int M = basis_.count();
+void Execution::keep_worst(Price& price) const noexcept {
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
-    const Eigen::RowVector3d answer = amplitude_ * total_.row(d).head(M).lazyProduct(answers_);
-    const double acceleration = answer(2) + flight_(d, 2) - gains_.K * (answer(0) + flight_(d, 0)) -
-                                gains_.D * (answer(1) + tau_ * flight_(d, 1));
-    const double deviation = amplitude_ * by_wishes_.row(d).head(M).dot(answers_.col(0));
-    offer_.acceleration(d) =
-        std::max(offer_.acceleration(d), std::abs(acceleration) / (tau_ * tau_));
-    offer_.deviation(d) = std::max(offer_.deviation(d), std::abs(deviation));
+    const double f = answered_(d, 2) + flight_(d, 2);
+    const double y = answered_(d, 0) + flight_(d, 0);
+    const double v = answered_(d, 1) + tau_ * flight_(d, 1);
+    const double acceleration = std::abs(f - gains_.K * y - gains_.D * v) / (tau_ * tau_);
+    const double deviation = std::abs(answered_(d, 3));
+    price.acceleration(d) = std::max(price.acceleration(d), acceleration);
+    price.deviation(d) = std::max(price.deviation(d), deviation);
   }
 }
 
@@ -311,7 +345,7 @@ const Price& Execution::price_of(int which, const Wish& wish) noexcept {
   spare_ = slot;
   const Sample& now = remember();
   assign(which, wish);
-  offer_.possible = find_from(now, phase_, false);
+  if (find_from(now, phase_, false)) estimate(offer_);
   slot = spare_;
   go_back();
   return offer_;

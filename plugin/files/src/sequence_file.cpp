@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "learn_entry.hpp"
@@ -16,7 +17,7 @@ namespace seam {
 namespace {
 
 constexpr const char* format_name = "seam-sequence";
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 struct Part {
   const char* name;
@@ -38,6 +39,24 @@ constexpr std::array<SwitchKey, 5> switch_keys{{{"after", Switch::When::after},
                                                 {"at_phase", Switch::When::at_phase},
                                                 {"near_goal", Switch::When::near_goal},
                                                 {"cycles", Switch::When::cycles}}};
+
+// The moments that a wish can have.
+constexpr std::array<SwitchKey, 4> moment_keys{{{"at", Switch::When::after},
+                                                {"before_end", Switch::When::before_end},
+                                                {"at_phase", Switch::When::at_phase},
+                                                {"cycles", Switch::When::cycles}}};
+
+Switch read_moment(const YamlEntry& entry) {
+  std::optional<Switch> moment;
+  for (const SwitchKey& key : moment_keys) {
+    const auto value = entry.find(key.name);
+    if (!value) continue;
+    if (moment) entry.fail("must have one of at, before_end, at_phase, cycles, not several");
+    moment = {key.when, value->number()};
+  }
+  if (!moment) entry.fail("needs its moment: one of the keys at, before_end, at_phase, cycles");
+  return *moment;
+}
 
 Switch read_switch(const YamlEntry& entry) {
   if (entry.is_text()) {
@@ -95,9 +114,77 @@ Primitives read_primitives(const YamlEntry& entry, const Reference& given) {
   return primitives;
 }
 
+// Values of coordinates by name; NaN where there is none.
+Eigen::VectorXd read_values(const YamlEntry& entry, const std::vector<std::string>& names) {
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()), NAN);
+  for (const auto& [name, value] : entry.entries()) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) value.fail("is not among the primitives' coordinates");
+    values(found - names.begin()) = value.number();
+  }
+  return values;
+}
+
+// An orientation that is wished takes the place of rx, ry and rz.
+void read_orientation(const YamlEntry& entry, const Primitive& primitive, Wish& wish) {
+  const auto& names = primitive.coordinates;
+  if (!primitive.reference_orientation)
+    entry.fail("the primitive has no coordinates rx, ry and rz about an orientation that is known");
+  const Eigen::Vector3d vector =
+      rotation_vector(entry.orientation(), *primitive.reference_orientation);
+  if (wish.position.size() == 0)
+    wish.position.setConstant(static_cast<Eigen::Index>(names.size()), NAN);
+  const auto rx = std::find(names.begin(), names.end(), "rx") - names.begin();
+  wish.position.segment<3>(rx) = vector;
+}
+
+void read_wish(const YamlEntry& entry, Wish::Then then, Sequence& sequence) {
+  entry.only({"position", "orientation", "velocity", "acceleration", "at", "before_end", "at_phase",
+              "cycles"});
+  const Primitive& primitive = sequence.steps().back().primitive;
+  Wish wish;
+  wish.then = then;
+  wish.when = read_moment(entry);
+  const auto values = [&](const char* key, Eigen::VectorXd& of) {
+    if (const auto named = entry.find(key)) of = read_values(*named, primitive.coordinates);
+  };
+  values("position", wish.position);
+  values("velocity", wish.velocity);
+  values("acceleration", wish.acceleration);
+  if (const auto turned = entry.find("orientation")) read_orientation(*turned, primitive, wish);
+  at_key(entry, [&] { sequence.wish(std::move(wish)); });
+}
+
+void read_arrival(const YamlEntry& entry, Sequence& sequence) {
+  if (entry.is_text()) {
+    if (entry.choice({"no", "yes"}) == 1) at_key(entry, [&] { sequence.arrive(); });
+    return;
+  }
+  entry.only({"at", "before_end", "at_phase", "smooth"});
+  const auto smooth = entry.find("smooth");
+  const bool only_smooth = entry.entries().size() == 1 && smooth;
+  const Switch when = only_smooth ? at_end() : read_moment(entry);
+  const bool without_step = !smooth || smooth->choice({"no", "yes"}) == 1;
+  at_key(entry, [&] { sequence.arrive(when, without_step); });
+}
+
+void read_wishes(const YamlEntry& step, Sequence& sequence) {
+  const Primitive& primitive = sequence.steps().back().primitive;
+  if (const auto leave = step.find("leave")) {
+    Values values;
+    read_values(*leave, primitive.coordinates);
+    for (const auto& [name, value] : leave->entries()) values[name] = value.number();
+    sequence.leave(values);
+  }
+  if (const auto pass = step.find("pass"))
+    for (const YamlEntry& one : pass->items()) read_wish(one, Wish::Then::go_on, sequence);
+  if (const auto hit = step.find("hit")) read_wish(*hit, Wish::Then::hand_over, sequence);
+  if (const auto arrive = step.find("arrive")) read_arrival(*arrive, sequence);
+}
+
 void read_step(const YamlEntry& step, const Primitives& primitives, const Check& check,
                SequenceFile& file) {
-  step.only({"play", "enter", "until"});
+  step.only({"play", "enter", "leave", "pass", "hit", "arrive", "until"});
   const YamlEntry play = step.at("play");
   const auto primitive = primitives.find(play.text());
   if (primitive == primitives.end())
@@ -107,13 +194,14 @@ void read_step(const YamlEntry& step, const Primitives& primitives, const Check&
     if (check) check(primitive->second);
     file.sequence.then(primitive->second);
   });
-  if (const auto until = step.find("until")) {
-    const Switch when = read_switch(*until);
-    at_key(*until, [&] { file.sequence.until(when); });
-  }
   if (const auto enter = step.find("enter")) {
     const Entry where = read_entry(*enter);
     at_key(*enter, [&] { file.sequence.enter(where); });
+  }
+  read_wishes(step, file.sequence);
+  if (const auto until = step.find("until")) {
+    const Switch when = read_switch(*until);
+    at_key(*until, [&] { file.sequence.until(when); });
   }
 }
 
@@ -143,6 +231,57 @@ std::string text_of(const Switch& until) {
 std::string text_of(const Entry& entry) {
   if (entry.where == Entry::Where::phase) return "{phase: " + yaml_number(entry.phase) + "}";
   return entry.where == Entry::Where::beginning ? "beginning" : "least_correction";
+}
+
+std::string values_text(const Eigen::VectorXd& values, const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t d = 0; d < names.size(); ++d) {
+    const double value = values(static_cast<Eigen::Index>(d));
+    if (!std::isnan(value))
+      text += (text.empty() ? "" : ", ") + yaml_text(names[d]) + ": " + yaml_number(value);
+  }
+  return "{" + text + "}";
+}
+
+std::string moment_text(const Switch& when) {
+  for (const SwitchKey& key : moment_keys)
+    if (when.when == key.when) return std::string(key.name) + ": " + yaml_number(when.value);
+  return {};
+}
+
+std::string text_of(const Wish& wish, const std::vector<std::string>& names) {
+  if (wish.then == Wish::Then::stay)
+    return "{" + moment_text(wish.when) + ", smooth: " + (wish.smooth ? "yes" : "no") + "}";
+  std::string text = "{";
+  const auto add = [&](const char* key, const Eigen::VectorXd& values) {
+    if (values.size() > 0 && !values.array().isNaN().all())
+      text += std::string(key) + ": " + values_text(values, names) + ", ";
+  };
+  add("position", wish.position);
+  add("velocity", wish.velocity);
+  add("acceleration", wish.acceleration);
+  return text + moment_text(wish.when) + "}";
+}
+
+std::string wishes_text(const Sequence::Step& step) {
+  const auto& names = step.primitive.coordinates;
+  std::string text, passes;
+  if (step.leave.size() > 0 && !step.leave.array().isNaN().all())
+    text += ", leave: " + values_text(step.leave, names);
+  for (const Wish& wish : step.wishes)
+    if (wish.then == Wish::Then::go_on)
+      passes += (passes.empty() ? "" : ", ") + text_of(wish, names);
+  if (!passes.empty()) text += ", pass: [" + passes + "]";
+  for (const Wish& wish : step.wishes) {
+    if (wish.then == Wish::Then::hand_over) text += ", hit: " + text_of(wish, names);
+    if (wish.then == Wish::Then::stay) text += ", arrive: " + text_of(wish, names);
+  }
+  return text;
+}
+
+bool has_wishes(const Sequence& sequence) {
+  return std::any_of(sequence.steps().begin(), sequence.steps().end(),
+                     [](const Sequence::Step& step) { return !wishes_text(step).empty(); });
 }
 
 std::string start_text(const Sample& start, const std::vector<std::string>& names) {
@@ -186,7 +325,7 @@ std::string steps_text(const SequenceFile& file) {
     const Sequence::Step& step = file.sequence.steps()[i];
     text += "  - {play: " + yaml_text(file.primitives[i]);
     if (step.primitive.kind == Kind::rhythmic) text += ", enter: " + text_of(step.entry);
-    text += ", until: " + text_of(step.until) + "}\n";
+    text += wishes_text(step) + ", until: " + text_of(step.until) + "}\n";
   }
   return text;
 }
@@ -220,7 +359,8 @@ SequenceFile read_sequence(const std::string& path, std::vector<std::string> all
 }
 
 void write_sequence(const std::string& path, const SequenceFile& file) {
-  std::string text = std::string("format: ") + format_name + " " + std::to_string(format_version);
+  std::string text =
+      std::string("format: ") + format_name + (has_wishes(file.sequence) ? " 2" : " 1");
   text += "\n";
   const auto& names = file.sequence.coordinates();
   if (file.start) text += start_text(*file.start, names);

@@ -27,7 +27,7 @@ class Conditions {
   void meet(int i, double right) noexcept;
   /// The part of Δ that rows from `first` to before `last` ask for, all of them having been met; M values.
   auto change(int first, int last) const noexcept {
-    return q_.middleCols(first, last - first) * z_.segment(first, last - first);
+    return q_.middleCols(first, last - first).lazyProduct(z_.segment(first, last - first));
   }
 
  private:

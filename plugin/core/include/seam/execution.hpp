@@ -49,8 +49,8 @@ class Responses;
 ///     aᵀΔw = F − f  (and ȧᵀΔw = Ḟ − ḟ: dmp2j),   Φ(t)ᵀΔw = y_wish − y_free(t),  …
 /// solved for the smallest Δw. Where the join is not made by the weights (dmp2, dmp3, changes on the way of a rhythmic
 /// primitive, a faded phase) its row is there with 0 on the right: wishes then leave the forcing as it is at that moment. So
-/// all methods keep continuous what they keep without wishes. A row of which less than a fifth of the length lies
-/// outside of what those before it span asks for too much (a point too near in time, a faded phase, wishes that contradict each other,
+/// all methods keep continuous what they keep without wishes. A row of which less than a fifth of the length
+/// (of accelerations and jerks a twentieth) lies outside of what those before it span asks for too much (a point too near in time, a faded phase, wishes that contradict each other,
 /// more of them than kernels): then the call is refused, and changes nothing. Every change on the way solves the system anew for the wishes
 /// that are still to come.
 ///
@@ -90,10 +90,10 @@ class Execution {
   int wishes() const noexcept { return wishes_; }  // so far, those that are over included
   /// False where wishes were dropped: the primitive was entered, or resumed, in a state from where they could not be met.
   bool wishes_hold() const noexcept { return wishes_hold_; }
-  /// What the wishes cost that were made by the last entry or change; valid until the next.
+  /// What the wishes cost with which the primitive was entered; zero without wishes.
   const Price& price() const noexcept { return price_; }
   /// What a wish would cost if it were made now; nothing is changed.
-  /// @return  valid until the next change or question
+  /// @return  valid until the next question
   const Price& price_of(int which, const Wish& wish) noexcept;
 
   /// The present state without the jerk.
@@ -152,8 +152,9 @@ class Execution {
   bool gather(Eigen::Index d) noexcept;
   void find_change(Eigen::Index d) noexcept;
   double right_side(std::size_t i, int order, Eigen::Index d) const noexcept;
-  void estimate_price() noexcept;
-  void look_at(int point) noexcept;
+  bool asked() const noexcept;
+  void estimate(Price& price) noexcept;
+  void keep_worst(Price& price) const noexcept;
   void arrive() noexcept;
 
   bool weights_hold() const noexcept;
@@ -234,13 +235,15 @@ class Execution {
   Eigen::MatrixXd missing_;  // padded D × 2: what the weights are to make up for at the join
   Eigen::MatrixXd delta_, by_wishes_,
       total_;  // padded D × padded M: Δw, the wishes' part of it, all weights
+  Eigen::Array<double, Eigen::Dynamic, 4>
+      answered_;  // padded D: y, v, f of all weights, y of the wishes' part
   Eigen::Matrix<double, Eigen::Dynamic, 3> answers_;  // M, at a point of the table of responses
   Conditions conditions_;
   int join_rows_ = 0;       // how many of the conditions are the join's
   Eigen::MatrixXd before_;  // what a change is taken back to, as the scalars
   double tau_before_ = 1.0, amplitude_before_ = 1.0, fade_from_before_ = 1.0;
   bool fading_before_ = false;
-  Price price_, offer_;  // of what is, of what was tried last
+  Price price_, offer_;  // at entry, of what was asked about
   std::size_t refused_ = 0;
   const char* refusal_ = "";
 };

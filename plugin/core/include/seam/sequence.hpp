@@ -59,6 +59,9 @@ class Sequence {
   /// @throws Error  the primitive is not valid, or its coordinates or reference orientation differ from those before it
   ///                (one that is not known differs from one that is; q and −q do not, and the first one's sign is kept)
   Sequence& then(Primitive primitive);
+  /// Appends a primitive with all that is said of it.
+  /// @throws Error  whatever the calls below refuse
+  Sequence& then(Step step);
   /// Sets when the primitive appended last hands over.
   /// @throws Error  nothing appended yet, or the switch can never be due, or not after the beginning
   Sequence& until(Switch when);
@@ -80,7 +83,7 @@ class Sequence {
   /// Wishes that it begins with an acceleration of some coordinates [rad/s² or m/s²], in place of the predecessor's.
   /// @throws Error  nothing appended yet, a name is not among its coordinates, or a value is not finite
   Sequence& leave(const Values& acceleration);
-  /// Adds a wish of the primitive appended last.
+  /// Adds a wish of the primitive appended last. One that is to hand over sets its switch, too, and there is one at most.
   /// @throws Error  likewise
   Sequence& wish(Wish wish);
 

@@ -20,11 +20,12 @@ struct SequenceFile {
   Sample start_state() const;
 };
 
-/// Reads a sequence from a YAML file of the format `seam-sequence 1`. Primitives are named once and
+/// Reads a sequence from a YAML file of the format `seam-sequence 1` or `2`, which adds the keys
+/// leave, pass, hit and arrive. Primitives are named once and
 /// played as often as they are wanted; paths are relative to the file, and lead, links followed, to its own
 /// folder or below, or to folders that are allowed. Keys that may be left out are marked so.
 ///
-///     format: seam-sequence 1
+///     format: seam-sequence 2
 ///     start:                            # optional, and so is each part and coordinate
 ///       position: {x: 0.1}              # else where the first primitive began
 ///       velocity: {x: 0}                # else 0; likewise acceleration, jerk
@@ -39,6 +40,13 @@ struct SequenceFile {
 ///                                                   # near_goal [rad or m], on_call
 ///       - {play: wipe, enter: least_correction, until: on_call}  # or beginning, {phase: 1.2}
 ///       - {play: away}                  # without until: to its end, or for one cycle
+///       - {play: reach, leave: {x: 2}, pass: [{position: {x: 0.2}, at: 0.4}], arrive: yes}   # wishes, see below
+///
+/// Wishes (see Wish and Sequence::wish), in the order in which they count: `pass`, a list; `hit`, one, which sets `until` as well;
+/// `arrive`. Each is a map of what is wished (position, velocity, acceleration: values of some coordinates; orientation:
+/// unit quaternion x y z w, in place of rx, ry and rz) and of one moment (at [s] after its beginning, before_end [s], at_phase,
+/// cycles). `arrive` is yes (at its end) or a map of a moment and, optional, `smooth: no`. `leave` gives accelerations with which it begins
+/// [rad/s² or m/s²].
 ///
 /// A demonstration is learned with LearnSettings and DerivativeSettings, all optional: kind, period
 /// [s], kernels, width, precision [m or rad], method (least_squares, recursive, locally_weighted),
@@ -59,7 +67,8 @@ struct SequenceFile {
 ///                refuses
 SequenceFile read_sequence(const std::string& path, std::vector<std::string> allowed = {});
 
-/// Writes a sequence with all its primitives and 17 significant digits: it comes back bit for bit.
+/// Writes a sequence with all its primitives and 17 significant digits: it comes back bit for bit, wishes in the order above. Of format 1
+/// where nothing is wished, so that an older seam can read it.
 /// The file appears whole or not at all.
 /// @throws Error  it has no steps, a name is missing, or stands for two different primitives; the
 ///                start has other dimensions or is not finite; the file cannot be written
