@@ -109,6 +109,8 @@ void Execution::continue_from(const Sample& from, double phase, bool at_join) no
   entry_phase_ = phase_ = phase;
   elapsed_ = 0.0;
   evaluate_regressor();
+  measure_coupling(from);
+  measure_coupling_rate(from);
   const bool by_weights = weights_hold() && (at_join || kind() == Kind::discrete);
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
     const Forcing has = present(d);
@@ -130,6 +132,7 @@ void Execution::continue_from(const Sample& from, double phase, bool at_join) no
       if (join_.method == Join::dmp2j) at(added_rate)(d) += missing.rate;
     }
   }
+  if (coupled_.coupling) at(f_start).head(dimensions()) += tau_ * tau_ * coupled_.value;
   refresh_sample();
 }
 
@@ -196,9 +199,12 @@ double Execution::faded(double phase) const noexcept {
 Execution::Forcing Execution::needed(const Sample& from, Eigen::Index d) const noexcept {
   const double tau2 = tau_ * tau_;
   const double damping = tau_ * gains_.D;
-  return {tau2 * from.acceleration(d) + damping * from.velocity(d) -
-              gains_.K * (at(target)(d) - from.position(d)),
-          tau2 * from.jerk(d) + damping * from.acceleration(d) + gains_.K * from.velocity(d)};
+  Forcing needs{tau2 * from.acceleration(d) + damping * from.velocity(d) -
+                    gains_.K * (at(target)(d) - from.position(d)),
+                tau2 * from.jerk(d) + damping * from.acceleration(d) + gains_.K * from.velocity(d)};
+  if (coupled_.coupling)
+    needs.value -= tau2 * coupled_.value(d), needs.rate -= tau2 * coupled_.rate(d);
+  return needs;
 }
 
 void Execution::step(double dt) noexcept {
@@ -216,9 +222,12 @@ void Execution::advance(double dt) noexcept {
   basis_.forcing(middle, phase_, weights().data(), stride, at(f_middle).data(), at(f_end).data());
   if (fading_) add_fading(middle);
   if (amplitude_ != 1.0) at(f_middle) *= amplitude_, at(f_end) *= amplitude_;
+  const bool coupled = coupled_.coupling != nullptr;
+  if (coupled) predict_coupling(dt);
   propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, at(f_start).data(),
             at(f_middle).data(), at(f_end).data(), at(offset).data(), at(velocity).data(),
             at(added).data(), at(added_rate).data());
+  if (coupled) finish_coupling(dt);
 }
 
 void Execution::add_fading(double middle) noexcept {
@@ -233,6 +242,7 @@ void Execution::set_step(double dt) noexcept {
   dt_ = dt;
   half_step_ = basis_.advance(basis_.start_phase(), 0.5 * dt, tau_);
   propagator_ = Propagator(gains_, tau_, dt);
+  set_coupled_step(dt);
 }
 
 void Execution::refresh_sample() noexcept {
@@ -249,6 +259,8 @@ const Sample& Execution::state() noexcept {
                        tau_ * gains_.D * sample_.acceleration(d)) /
                       (tau_ * tau_);
   }
+  measure_coupling_rate(sample_);
+  if (coupled_.coupling) sample_.jerk += coupled_.rate;
   return sample_;
 }
 
@@ -282,6 +294,7 @@ bool Execution::set_amplitude(double amplitude) noexcept {
 
 double Execution::correction(const Sample& from, double phase) noexcept {
   basis_.regressor(phase, row_.data());
+  measure_coupling(from);
   double sum = 0.0;
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
     const double has = amplitude_ * learned().row(d).head(basis_.count()).dot(row_);

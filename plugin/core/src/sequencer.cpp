@@ -26,6 +26,18 @@ std::optional<Execution> rest_of(const Primitive& primitive) {
   return Execution(rest);
 }
 
+class CouplingSum : public Coupling {
+ public:
+  explicit CouplingSum(std::vector<std::shared_ptr<Coupling>> parts) : parts_(std::move(parts)) {}
+  void add(const Eigen::VectorXd& y, const Eigen::VectorXd& yd, double t,
+           Eigen::VectorXd& ydd) const noexcept override {
+    for (const auto& part : parts_) part->add(y, yd, t, ydd);
+  }
+
+ private:
+  std::vector<std::shared_ptr<Coupling>> parts_;
+};
+
 bool usable(const Sample& at, int dimensions) {
   for (const Eigen::VectorXd* part : {&at.position, &at.velocity, &at.acceleration, &at.jerk})
     if (part->size() != dimensions || !part->allFinite()) return false;
@@ -70,8 +82,10 @@ void Sequencer::forget_played() {
 void Sequencer::push(const Sequence& sequence) {
   require_joinable(sequence);
   forget_played();
-  for (const Sequence::Step& step : sequence.steps())
+  for (const Sequence::Step& step : sequence.steps()) {
     items_.push_back({Execution(step.primitive), rest_of(step.primitive), step.until, step.entry});
+    if (coupling_) couple(items_.back());
+  }
   JoinEvent event;
   event.acceleration_before.setZero(dimensions());
   event.acceleration_after = event.jerk_before = event.jerk_after = event.acceleration_before;
@@ -170,6 +184,7 @@ bool Sequencer::hand_over() noexcept {
 void Sequencer::switch_over() noexcept {
   if (to_come() > 0) {
     Item& next = items_[static_cast<std::size_t>(running_ + 1 - first_)];
+    take_along(next.execution);
     double phase = phase_of(next.entry, next.execution.basis());
     if (std::isnan(phase)) phase = next.execution.least_correction_phase(motion());
     join_to(next.execution, phase, running_ + 1);
@@ -179,6 +194,7 @@ void Sequencer::switch_over() noexcept {
   finished_ = true;
   if (running_ >= 0 && now().kind() == Kind::rhythmic) {
     Execution& rest = *item().rest;
+    take_along(rest);
     rest.set_goal(now().goal());
     rest.set_tau(M_PI * now().tau());
     join_to(rest, rest.basis().start_phase(), running_);
@@ -202,6 +218,56 @@ void Sequencer::join_to(Execution& next, double phase, int primitive) noexcept {
   event.acceleration_after = after.acceleration;
   event.jerk_before = before.jerk;
   event.jerk_after = after.jerk;
+}
+
+void Sequencer::add_coupling(std::shared_ptr<Coupling> coupling) {
+  if (!coupling) throw Error("sequencer", "a coupling is null");
+  auto all = couplings_;
+  all.push_back(std::move(coupling));
+  couple(std::move(all));
+  ++changes_;
+}
+
+bool Sequencer::remove_coupling(const std::shared_ptr<Coupling>& coupling) {
+  auto all = couplings_;
+  const auto found = std::find(all.begin(), all.end(), coupling);
+  if (found == all.end()) return false;
+  all.erase(found);
+  couple(std::move(all));
+  ++changes_;
+  return true;
+}
+
+void Sequencer::clear_couplings() {
+  couple({});
+  ++changes_;
+}
+
+void Sequencer::couple(std::vector<std::shared_ptr<Coupling>> all) {
+  std::shared_ptr<const Coupling> sum;
+  if (all.size() == 1) sum = all.front();
+  if (all.size() > 1) sum = std::make_shared<CouplingSum>(all);
+  const bool at_start = running_ == 0 && time() == 0.0;
+  const Sample start = at_start ? now().state() : start_;
+  couplings_ = std::move(all);
+  coupling_ = std::move(sum);
+  for (Item& item : items_) couple(item);
+  if (at_start) {
+    now().reinitialise(start, entry_phase_, join_);
+    events_.front().acceleration_after = now().state().acceleration;
+    events_.front().jerk_after = now().state().jerk;
+  }
+  rescale();
+}
+
+void Sequencer::couple(Item& item) const {
+  item.execution.couple(coupling_, motion_time());
+  if (item.rest) item.rest->couple(coupling_, motion_time());
+}
+
+// To the time at which it begins; it has the memory.
+void Sequencer::take_along(Execution& next) const noexcept {
+  if (coupling_) next.couple(coupling_, motion_time());
 }
 
 bool Sequencer::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {

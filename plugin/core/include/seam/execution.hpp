@@ -1,12 +1,14 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 
 #include <Eigen/Core>
 
 #include <seam/alignment.hpp>
 #include <seam/basis.hpp>
 #include <seam/compensated_sum.hpp>
+#include <seam/coupling.hpp>
 #include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/primitive.hpp>
@@ -54,9 +56,17 @@ class Execution {
   bool set_tau(double tau) noexcept;              // [s] > 0
   bool set_amplitude(double amplitude) noexcept;  // of a rhythmic primitive's forcing; 1 as learned
 
+  /// Adds an acceleration C(y, ẏ, t) to the equation of motion from now on, in place of one that acts; null: none. It
+  /// allocates, what follows does not. F and Ḟ are then less by τ²C and τ²Ċ, so that joins and changes continue ÿ, and the
+  /// jerk, while C acts; ÿ steps by what C is now. Ċ is a central difference along the motion over ±10 µs: of
+  /// what changes within 0.1 s it is exact to some 1e-8, of a C that bends just here it is the mean of both sides.
+  /// @param coupling  shared; it must not be changed within a step
+  /// @param time      [s] of the motion, which C is told; it goes on with the steps
+  void couple(std::shared_ptr<const Coupling> coupling, double time);
+
   /// The present state without the jerk.
   const Sample& sample() const noexcept { return sample_; }
-  /// The present state with the jerk, y⃛ = (K(ṙ − ẏ) − τDÿ + ḟ)/τ².
+  /// The present state with the jerk, y⃛ = (K(ṙ − ẏ) − τDÿ + ḟ)/τ² + Ċ (see couple).
   const Sample& state() noexcept;
 
   /// Square of the step in acceleration, over all coordinates, that dmp2 would leave if the execution were
@@ -90,6 +100,13 @@ class Execution {
   void set_step(double dt) noexcept;
   void add_fading(double middle) noexcept;
   void refresh_sample() noexcept;
+  void evaluate_coupling(double time, Eigen::VectorXd& value) noexcept;
+  void measure_coupling(const Sample& at) noexcept;
+  void measure_coupling_rate(const Sample& at) noexcept;
+  void set_coupled_step(double dt) noexcept;
+  void look_ahead(const Propagator& by) noexcept;
+  void predict_coupling(double dt) noexcept;
+  void finish_coupling(double dt) noexcept;
   double valley(const Sample& at, double low, double high) noexcept;
 
   Gains gains_;
@@ -137,6 +154,17 @@ class Execution {
   double phase_ = 1.0;
   double joined_phase_ = 1.0;
   CompensatedSum elapsed_;  // [s] since the last re-initialisation
+  // What acts beside the forcing, and what it is worked out with; the columns f_start, f_middle and f_end then hold f + τ²C.
+  struct Coupled {
+    std::shared_ptr<const Coupling> coupling;
+    CompensatedSum time;                 // [s] of the motion
+    Propagator half;                     // to the middle of a step, for the forcing of the whole
+    Eigen::VectorXd position, velocity;  // D, where C is asked for
+    Eigen::VectorXd value, rate;         // D, C and Ċ now
+    Eigen::VectorXd middle, end;         // D, C in a step
+    Eigen::MatrixX2d uncoupled;          // D × 2, the forcing alone there
+  };
+  Coupled coupled_;
   Sample sample_;
 };
 

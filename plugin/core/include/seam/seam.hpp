@@ -4,6 +4,7 @@
 /// Everything of seam: what is declared where is in the reference's list of headers.
 
 // The core of seam, in the order in which the data flows.
+#include <seam/coupling.hpp>
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
