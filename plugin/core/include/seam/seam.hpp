@@ -8,9 +8,11 @@
 #include <seam/demonstration.hpp>
 #include <seam/error.hpp>
 #include <seam/execution.hpp>
+#include <seam/glide.hpp>
 #include <seam/join.hpp>
 #include <seam/learn.hpp>
 #include <seam/metrics.hpp>
+#include <seam/obstacles.hpp>
 #include <seam/orientation.hpp>
 #include <seam/period.hpp>
 #include <seam/primitive.hpp>
