@@ -14,7 +14,7 @@ put table results/overview.md README.md
 awk -f bench/joins.awk $(ls bench/baselines/*.json | grep -v -e -published) >results/joins.md
 put joins results/joins.md plugin/guide/2-choosing-a-join.md
 put micro build/micro.md bench/README.md
-for scene in line pouring wiping carrying catching; do
+for scene in line pouring wiping carrying catching through obstacle; do
   cp results/$scene/$scene.png bench/pictures/$scene.png
 done
 build/release/bench/seam render results/carrying --compare dmp2,dmp3 --inset --size 880x440 --from 0.6 --to 2 --speed 0.25 --fps 15 \

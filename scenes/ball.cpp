@@ -16,8 +16,8 @@ namespace {
 
 const Eigen::Vector3d gravity(0.0, 0.0, -9.81);  // [m/s²] as in World
 
-Ball read_flight(const YamlEntry& entry) {
-  Ball ball;
+FlyingBall read_flight(const YamlEntry& entry) {
+  FlyingBall ball;
   if (const auto radius = entry.find("radius")) ball.radius = radius->positive();
   ball.at = entry.at("at").numbers(3, "direction");
   ball.velocity = entry.at("velocity").numbers(3, "direction");
@@ -30,34 +30,60 @@ Ball read_flight(const YamlEntry& entry) {
   return ball;
 }
 
-Event hit_of(const Forecast& forecast, double at, const Scene& scene) {
+// Index of the hit among its step's wishes.
+int first_hit(const YamlEntry& entry, const Sequence& sequence) {
+  for (const Sequence::Step& step : sequence.steps())
+    for (std::size_t i = 0; i < step.wishes.size(); ++i)
+      if (step.wishes[i].then == Wish::Then::hand_over) return static_cast<int>(i);
+  entry.fail("needs a step of the sequence with a hit, which it moves");
+}
+
+Event hit_of(const Forecast& forecast, const FlyingBall& ball, std::size_t coordinates) {
   Event event;
-  event.at = at;
-  event.goal =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(scene.sequence.coordinates().size()),
-                                std::numeric_limits<double>::quiet_NaN());
+  event.what = Event::What::hit;
+  event.goal = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(coordinates),
+                                         std::numeric_limits<double>::quiet_NaN());
+  event.velocity = event.goal;
   event.goal.head<3>() = forecast.position();
+  event.velocity.head<3>() = forecast.velocity();
+  event.when = ball.caught;
   return event;
 }
 
-// A picture alone tells no velocity.
-void watch(const YamlEntry& entry, const Ball& ball, Scene& scene) {
+// A camera that sees a ball. One picture alone tells no velocity.
+struct Sight {
+  std::vector<double> times;  // [s] of its pictures
+  double noise = 0.0;         // [m]
+  std::size_t least = 2;      // pictures that a forecast takes
+};
+
+Sight read_sight(const YamlEntry& entry, const FlyingBall& ball) {
   entry.only({"from", "to", "every", "noise", "least"});
-  const std::vector<double> times = picture_times(entry);
-  if (times.front() < ball.thrown) entry.at("from").fail("must be >= thrown");
-  if (!(times.back() < ball.caught)) entry.at("to").fail("must be < caught");
-  const auto spread = entry.find("noise");
-  const double noise = spread ? spread->not_negative() : 0.0;
-  const auto given = entry.find("least");
-  const auto least = static_cast<std::size_t>(given ? given->count(2) : 2);
-  if (times.size() < least) entry.fail("has fewer pictures than a forecast takes");
+  Sight sight;
+  sight.times = picture_times(entry);
+  if (sight.times.front() < ball.thrown) entry.at("from").fail("must be >= thrown");
+  if (!(sight.times.back() < ball.caught)) entry.at("to").fail("must be < caught");
+  if (const auto noise = entry.find("noise")) sight.noise = noise->not_negative();
+  if (const auto least = entry.find("least"))
+    sight.least = static_cast<std::size_t>(least->count(2));
+  if (sight.times.size() < sight.least) entry.fail("has fewer pictures than a forecast takes");
+  return sight;
+}
+
+void watch(const YamlEntry& entry, const FlyingBall& ball, Scene& scene) {
+  const Sight sight = read_sight(entry, ball);
+  const int which = first_hit(entry, scene.sequence);
   Noise random(scene.seed);
   Forecast forecast(ball.caught, ball.acceleration);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    Eigen::Vector3d place = ball.position(times[i]);
-    for (double& seen : place) seen += noise * random.normal();
-    forecast.see(times[i], place);
-    if (i + 1 >= least) scene.events.push_back(hit_of(forecast, times[i], scene));
+  for (std::size_t i = 0; i < sight.times.size(); ++i) {
+    Eigen::Vector3d place = ball.position(sight.times[i]);
+    for (double& seen : place) seen += sight.noise * random.normal();
+    forecast.see(sight.times[i], place);
+    if (i + 1 < sight.least) continue;
+    Event event = hit_of(forecast, ball, scene.sequence.coordinates().size());
+    event.at = sight.times[i];
+    event.which = which;
+    scene.events.push_back(std::move(event));
   }
   sort_by_time(scene.events);
 }
@@ -92,7 +118,7 @@ class CaughtBall final : public Object {
   }
 
  private:
-  const Ball& ball_;
+  const FlyingBall& ball_;
   const Robot& robot_;
   Frame tool_;
   Eigen::Matrix3Xd way_;
@@ -108,7 +134,7 @@ double least_of(double before, double now, double after) {
   return curvature > 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
 }
 
-double nearest(const Ball& ball, const Eigen::Matrix3Xd& way, double dt) {
+double nearest(const FlyingBall& ball, const Eigen::Matrix3Xd& way, double dt) {
   Eigen::VectorXd square(way.cols());
   for (Eigen::Index k = 0; k < way.cols(); ++k)
     square(k) = (way.col(k) - ball.position(static_cast<double>(k) * dt)).squaredNorm();
@@ -120,12 +146,12 @@ double nearest(const Ball& ball, const Eigen::Matrix3Xd& way, double dt) {
 
 }  // namespace
 
-Eigen::Vector3d Ball::position(double time) const {
+Eigen::Vector3d FlyingBall::position(double time) const {
   const double t = std::max(time - thrown, 0.0);
   return at + t * velocity + 0.5 * t * t * acceleration;
 }
 
-Eigen::Vector3d Ball::velocity_at(double time) const {
+Eigen::Vector3d FlyingBall::velocity_at(double time) const {
   if (time < thrown) return Eigen::Vector3d::Zero();
   return velocity + (time - thrown) * acceleration;
 }
@@ -148,7 +174,7 @@ Eigen::Vector3d Forecast::position() const {
   return (y_ - s_ * velocity()) / n_;
 }
 
-Miss miss(const Ball& ball, const Eigen::Matrix3Xd& way, double dt) {
+Miss miss(const FlyingBall& ball, const Eigen::Matrix3Xd& way, double dt) {
   const double tick = ball.caught / dt;
   const auto k = std::clamp<Eigen::Index>(std::lround(tick), 1, way.cols() - 2);
   const double s = tick - static_cast<double>(k);
@@ -161,7 +187,7 @@ Miss miss(const Ball& ball, const Eigen::Matrix3Xd& way, double dt) {
           std::abs(nearest(ball, way, dt) - ball.caught)};
 }
 
-void Ball::hasten(double factor) {
+void FlyingBall::hasten(double factor) {
   thrown /= factor;
   caught /= factor;
   velocity *= factor;
@@ -171,7 +197,7 @@ void Ball::hasten(double factor) {
 void read_ball(const YamlEntry& entry, Scene& scene) {
   entry.only({"radius", "at", "velocity", "carried", "thrown", "caught", "seen"});
   if (!scene.tool) entry.fail("needs a tool that catches it");
-  const Ball ball = read_flight(entry);
+  const FlyingBall ball = read_flight(entry);
   if (!(ball.caught < scene.duration)) entry.at("caught").fail("must be before the run ends");
   if (const auto seen = entry.find("seen")) watch(*seen, ball, scene);
   scene.ball = ball;

@@ -12,7 +12,7 @@ class YamlEntry;
 struct Scene;
 
 /// A ball that is thrown and flies freely, or is carried along a line, for a hand to catch.
-struct Ball {
+struct FlyingBall {
   double radius = 0.03;                          // [m]
   double thrown = 0.0;                           // [s] since the run began; until then it rests
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  // [m] in the world, when it is thrown
@@ -62,7 +62,7 @@ struct Miss {
 /// From a hand's way in steps of dt, a parabola through three places serving between them. The ball goes on as if nobody caught it.
 /// @param way  [m] 3 × N, N ≥ 3, from time 0 on
 /// @param dt   [s]
-Miss miss(const Ball& ball, const Eigen::Matrix3Xd& way, double dt);
+Miss miss(const FlyingBall& ball, const Eigen::Matrix3Xd& way, double dt);
 
 /// The key `ball` of a scene (see scenes/README.md). Each of the camera's pictures, from the first that gives a forecast on,
 /// becomes an event of the scene that moves the running primitive's hit to where, and as fast as, the ball is then said to be.

@@ -51,7 +51,9 @@ class Gates final : public Object {
       : gates_(scene.gates),
         robot_(robot),
         tool_(scene.tool_frame()),
-        passages_(gates_.begin(), gates_.end()) {}
+        passages_(gates_.begin(), gates_.end()) {
+    if (scene.tool) X_tool_link_ = scene.tool->X_link_tool.inverse();
+  }
 
   void pre_tick(Eigen::Index, double) override {
     const Eigen::Vector3d place = robot_.X_world_frame(tool_).translation();
@@ -60,10 +62,15 @@ class Gates final : public Object {
   void appear(Replay& replay) override {
     part_ = replay.parts.size();
     for (const Gate& gate : gates_) replay.parts.push_back(frame_of(gate));
+    replay.parts.push_back({"rod", {}, {}});
+    const Eigen::Vector3d to_link = X_tool_link_.translation();
+    if (to_link.norm() > bar)
+      replay.parts.back().visuals.push_back(coloured(rod(to_link, 0.4 * bar), 0.25, 0.27, 0.30));
   }
   void film(Eigen::Index frame, Replay& replay) const override {
     for (std::size_t i = 0; i < gates_.size(); ++i)
       replay.set_pose(frame, part_ + i, gates_[i].X_world_gate);
+    replay.set_pose(frame, part_ + gates_.size(), robot_.X_world_frame(tool_));
   }
   void finish(Recording& recording) const override {
     double least = std::numeric_limits<double>::infinity();
@@ -75,6 +82,7 @@ class Gates final : public Object {
   const std::vector<Gate>& gates_;
   const Robot& robot_;
   Frame tool_;
+  Eigen::Isometry3d X_tool_link_ = Eigen::Isometry3d::Identity();
   std::vector<Passage> passages_;
   std::size_t part_ = 0;
 };

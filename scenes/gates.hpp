@@ -44,7 +44,7 @@ class Passage {
 /// @throws Error  names file, line and key
 std::vector<Gate> read_gates(const YamlEntry& entry);
 
-/// All of a scene's gates. Outcome: `clearance_m`, the least of their clearances for the scene's tool; more is better.
+/// All of a scene's gates, and, if the tool's point is off its link, a thin rod from one to the other, to be seen. Outcome: `clearance_m`, the least of their clearances for the scene's tool; more is better.
 std::unique_ptr<Object> make_gates(const Scene& scene, const Robot& robot);
 
 }  // namespace seam

@@ -32,19 +32,17 @@ Geometry read_shape(const YamlEntry& entry) {
   return box(Eigen::Isometry3d::Identity(), size);
 }
 
-Obstacle read_obstacle(const YamlEntry& entry) {
-  entry.only({"box", "ball", "at", "to", "leaves", "over"});
-  Obstacle obstacle;
+SolidObstacle read_obstacle(const YamlEntry& entry) {
+  entry.only({"box", "ball", "at", "moves"});
+  SolidObstacle obstacle;
   obstacle.shape = coloured(read_shape(entry), 0.72, 0.24, 0.18);
   obstacle.at = entry.at("at").numbers(3, "direction");
-  const auto to = entry.find("to");
-  if (to) {
-    obstacle.way = to->numbers(3, "direction") - obstacle.at;
-    obstacle.leaves = entry.at("leaves").not_negative();
-    obstacle.over = entry.at("over").positive();
+  if (const auto moves = entry.find("moves")) {
+    moves->only({"to", "from", "over"});
+    obstacle.way = moves->at("to").numbers(3, "direction") - obstacle.at;
+    obstacle.leaves = moves->at("from").not_negative();
+    obstacle.over = moves->at("over").positive();
   }
-  for (const char* key : {"leaves", "over"})
-    if (const auto given = entry.find(key); given && !to) given->fail("goes with to alone");
   return obstacle;
 }
 
@@ -63,7 +61,7 @@ struct LeastDistance final : btCollisionWorld::ContactResultCallback {
 // One of them in Bullet's world.
 class Body {
  public:
-  Body(const Obstacle& obstacle, btMultiBodyDynamicsWorld& world)
+  Body(const SolidObstacle& obstacle, btMultiBodyDynamicsWorld& world)
       : obstacle_(obstacle),
         world_(world),
         shape_(make_shape({obstacle.shape}, Eigen::Isometry3d::Identity(), 0.0)) {
@@ -93,7 +91,7 @@ class Body {
   }
 
  private:
-  const Obstacle& obstacle_;
+  const SolidObstacle& obstacle_;
   btMultiBodyDynamicsWorld& world_;
   BodyShape shape_;
   btCollisionObject object_;
@@ -102,7 +100,7 @@ class Body {
 class Obstacles final : public Object {
  public:
   Obstacles(const Scene& scene, Robot& robot) : obstacles_(scene.obstacles) {
-    for (const Obstacle& obstacle : obstacles_)
+    for (const SolidObstacle& obstacle : obstacles_)
       bodies_.push_back(std::make_unique<Body>(obstacle, robot.world()));
     for (int link = -1; link < robot.dof(); ++link)
       if (auto* const collider = link < 0 ? robot.multibody().getBaseCollider()
@@ -125,7 +123,7 @@ class Obstacles final : public Object {
   }
   void appear(Replay& replay) override {
     part_ = replay.parts.size();
-    for (const Obstacle& obstacle : obstacles_)
+    for (const SolidObstacle& obstacle : obstacles_)
       replay.parts.push_back({"obstacle", {obstacle.shape}, {}});
   }
   void film(Eigen::Index frame, Replay& replay) const override {
@@ -139,7 +137,7 @@ class Obstacles final : public Object {
   }
 
  private:
-  const std::vector<Obstacle>& obstacles_;
+  const std::vector<SolidObstacle>& obstacles_;
   std::vector<std::unique_ptr<Body>> bodies_;
   std::vector<btCollisionObject*> links_;
   double least_ = farthest;  // [m] so far
@@ -150,14 +148,14 @@ class Obstacles final : public Object {
 
 }  // namespace
 
-Eigen::Vector3d Obstacle::position(double time) const {
+Eigen::Vector3d SolidObstacle::position(double time) const {
   if (over == 0.0) return at;
   const double share = std::clamp((time - leaves) / over, 0.0, 1.0);
   return at + (1.0 - fade(share)) * way;
 }
 
-std::vector<Obstacle> read_obstacles(const YamlEntry& entry) {
-  std::vector<Obstacle> obstacles;
+std::vector<SolidObstacle> read_obstacles(const YamlEntry& entry) {
+  std::vector<SolidObstacle> obstacles;
   for (const YamlEntry& item : entry.items()) {
     if (obstacles.size() == most_obstacles) entry.fail("more than 100 obstacles");
     obstacles.push_back(read_obstacle(item));

@@ -15,7 +15,7 @@ class YamlEntry;
 struct Scene;
 
 /// A box or a ball that stands in the arm's way, or moves on a straight line whatever it meets.
-struct Obstacle {
+struct SolidObstacle {
   Geometry shape;                                 // about its middle; boxes stand level
   Eigen::Vector3d at = Eigen::Vector3d::Zero();   // [m] in the world, its middle to begin with
   Eigen::Vector3d way = Eigen::Vector3d::Zero();  // [m] on which it goes
@@ -28,7 +28,7 @@ struct Obstacle {
 
 /// The key `obstacles` of a scene (see scenes/README.md).
 /// @throws Error  names file, line and key
-std::vector<Obstacle> read_obstacles(const YamlEntry& entry);
+std::vector<SolidObstacle> read_obstacles(const YamlEntry& entry);
 
 /// All of a scene's obstacles, in the robot's world as kinematic objects that nothing meets: what would touch is measured and
 /// not pushed. Each tick Bullet's contact test between each of them and the robot's colliders gives their distance, negative by

@@ -142,7 +142,7 @@ void hasten(double factor, Scene& scene) {
     dropout.from /= factor;
     dropout.to /= factor;
   }
-  for (Obstacle& obstacle : scene.obstacles) {
+  for (SolidObstacle& obstacle : scene.obstacles) {
     obstacle.leaves /= factor;
     obstacle.over /= factor;
   }

@@ -54,8 +54,8 @@ struct Scene {
   Eigen::Isometry3d X_link_glass = Eigen::Isometry3d::Identity();  // of its glass, in the tool's
   std::optional<Pouring> pouring;
   std::vector<Gate> gates;
-  std::vector<Obstacle> obstacles;
-  std::optional<Ball> ball;
+  std::vector<SolidObstacle> obstacles;
+  std::optional<FlyingBall> ball;
   Eigen::VectorXd start;             // [rad] joint positions at rest
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;

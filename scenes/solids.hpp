@@ -23,6 +23,16 @@ inline Geometry sphere(double radius) {
   return solid;
 }
 
+/// A cylinder from the origin to a place other than it; both in [m].
+inline Geometry rod(const Eigen::Vector3d& to, double radius) {
+  Geometry solid;
+  solid.type = Geometry::Type::cylinder;
+  solid.X_body_shape = Eigen::Translation3d(0.5 * to) *
+                       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to);
+  solid.size << radius, 0.0, to.norm();
+  return solid;
+}
+
 /// The same in a colour, red green blue in 0 to 1.
 inline Geometry coloured(Geometry solid, double red, double green, double blue) {
   solid.colour << red, green, blue, 1.0;

@@ -16,8 +16,8 @@ using test::BadFile;
 using test::outcome;
 using test::own_scene;
 
-Ball thrown_ball() {
-  Ball ball;
+FlyingBall thrown_ball() {
+  FlyingBall ball;
   ball.thrown = 0.3;
   ball.at << 1.0, 0.2, 0.5;
   ball.velocity << -0.6, 0.1, 3.0;
@@ -33,7 +33,7 @@ Eigen::Matrix3Xd way_of(const std::function<Vector3d(double)>& place, int ticks,
 }
 
 TEST(Ball, FliesAsGravityHasIt) {
-  const Ball ball = thrown_ball();
+  const FlyingBall ball = thrown_ball();
   EXPECT_EQ(ball.position(0.1), ball.at);
   EXPECT_EQ(ball.velocity_at(0.1), Vector3d::Zero());
   const double h = 1e-3;
@@ -43,14 +43,14 @@ TEST(Ball, FliesAsGravityHasIt) {
     EXPECT_LT(((after - before) / (2.0 * h) - ball.velocity_at(t)).norm(), 1e-9);
     EXPECT_LT(((after - 2.0 * now + before) / (h * h) - ball.acceleration).norm(), 1e-6);
   }
-  Ball fast = ball;
+  FlyingBall fast = ball;
   fast.hasten(2.0);
   EXPECT_TRUE(fast.position(0.35).isApprox(ball.position(0.7), 1e-14));
   EXPECT_TRUE(fast.velocity_at(0.35).isApprox(2.0 * ball.velocity_at(0.7), 1e-14));
 }
 
 TEST(Forecast, IsExactWhereNothingBlursTheSight) {
-  const Ball ball = thrown_ball();
+  const FlyingBall ball = thrown_ball();
   Forecast forecast(ball.caught, ball.acceleration);
   for (int i = 0; i < 7; ++i) {
     const double t = 0.31 + 0.02 * i;
@@ -67,7 +67,7 @@ TEST(Forecast, IsTheFlightThatFitsBest) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 0.01);
-  const Ball ball = thrown_ball();
+  const FlyingBall ball = thrown_ball();
   Forecast forecast(ball.caught, ball.acceleration);
   const int pictures = 12;
   Eigen::MatrixXd A(pictures, 2), b(pictures, 3);
@@ -84,7 +84,7 @@ TEST(Forecast, IsTheFlightThatFitsBest) {
 }
 
 TEST(Miss, IsNothingWhereTheHandGoesWithTheBall) {
-  const Ball ball = thrown_ball();
+  const FlyingBall ball = thrown_ball();
   const Miss none =
       miss(ball, way_of([&](double t) { return ball.position(t); }, 1500, 1e-3), 1e-3);
   EXPECT_LT(none.place, 1e-12);
@@ -101,7 +101,7 @@ TEST(Miss, IsNothingWhereTheHandGoesWithTheBall) {
 }
 
 TEST(Miss, IsWhatTheHandIsOffByInPlaceVelocityAndTime) {
-  const Ball ball = thrown_ball();
+  const FlyingBall ball = thrown_ball();
   const Vector3d off(0.003, -0.004, 0.0);
   const auto beside = [&](double t) -> Vector3d {
     return ball.position(t) + off + (t - ball.caught) * Vector3d(0.0, 0.0, 0.5);
@@ -111,7 +111,7 @@ TEST(Miss, IsWhatTheHandIsOffByInPlaceVelocityAndTime) {
   EXPECT_NEAR(missed.velocity, 0.5, 1e-9);
   EXPECT_NEAR(missed.time, 0.0, 1e-9);
   // A hand at rest where a ball on a line comes by 20.3 ms too late.
-  Ball carried = ball;
+  FlyingBall carried = ball;
   carried.acceleration.setZero();
   const Vector3d there = carried.position(carried.caught + 0.0203);
   const Miss late = miss(carried, way_of([&](double) { return there; }, 1500, 1e-3), 1e-3);
@@ -181,6 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"SeenOnce", "least: 4", "least: 1", ":32: key \"least\": "},
         BadFile{"SeenTooSeldom", "least: 4", "least: 40",
                 ":32: key \"seen\": has fewer pictures than a forecast takes"},
+        BadFile{"NothingToMove", "least: 4", "least: 5",
+                ":32: key \"seen\": needs a step of the sequence with a hit"},
         BadFile{"NegativeNoise", "noise: 0.002", "noise: -1",
                 ":32: key \"noise\": -1, must be >= 0"},
         BadFile{"CarriedPerhaps", "thrown: 0.1", "thrown: 0.1, carried: perhaps",

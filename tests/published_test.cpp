@@ -44,7 +44,8 @@ TEST_P(Published, PlaysToTheEndAndIsTracked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Published,
-                         testing::Values("line", "wiping", "carrying", "catching", "pouring"),
+                         testing::Values("line", "wiping", "carrying", "catching", "through",
+                                         "pouring"),
                          [](const auto& of) { return std::string(of.param); });
 
 TEST(PublishedCarrying, SpillsWithDmp2AndNotWithTheOthers) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -40,9 +41,11 @@ inline std::string replaced_all(std::string text, const std::string& from, const
   return text;
 }
 
-/// The text of a scene that can be read from any folder.
+/// The text of a scene, one of the project's own or of the tests', that can be read from any folder.
 inline std::string scene_text(const std::string& name) {
-  return replaced_all(read_file(SEAM_SCENES "/" + name + ".yaml"), "../assets", SEAM_ASSETS);
+  const std::string own = SEAM_SCENES "/" + name + ".yaml";
+  const std::string path = std::filesystem::exists(own) ? own : SEAM_TEST_DATA "/" + name + ".yaml";
+  return replaced_all(read_file(path), "../assets", SEAM_ASSETS);
 }
 
 /// A good file, spoiled, is refused with its path and the case's message.

@@ -1,8 +1,9 @@
+#include "scenes/obstacles.hpp"
+
 #include <cstring>
 
 #include <gmock/gmock.h>
 
-#include "scenes/obstacles.hpp"
 #include "scenes/play.hpp"
 #include "tests/own_scene.hpp"
 #include "tests/refusals.hpp"
@@ -64,7 +65,7 @@ double distance_to_box(const Vector3d& place, const Vector3d& half) {
 }
 
 TEST(Obstacle, GoesItsWayFromRestToRest) {
-  Obstacle obstacle;
+  SolidObstacle obstacle;
   obstacle.at << 1.0, 2.0, 3.0;
   EXPECT_EQ(obstacle.position(7.0), obstacle.at);
   obstacle.way << 0.4, 0.0, -0.2;
@@ -108,7 +109,7 @@ TEST(Obstacles, AreAsFarFromTheArmAsTheyAre) {
   check("{box: [0.1, 0.2, 0.3], at: [0.45, 0, 0.4]}", [](const Vector3d& p, double) {
     return distance_to_box(p - Vector3d(0.45, 0.0, 0.4), {0.05, 0.1, 0.15});
   });
-  Obstacle moving;
+  SolidObstacle moving;
   moving.at << 0.6, 0.0, 0.4;
   moving.way << -0.3, 0.0, 0.0;
   moving.leaves = 0.2;
@@ -117,7 +118,8 @@ TEST(Obstacles, AreAsFarFromTheArmAsTheyAre) {
     return distance_to_box(p - moving.position(time), Vector3d::Constant(0.03));
   };
   const std::string box =
-      "{box: [0.06, 0.06, 0.06], at: [0.6, 0, 0.4], to: [0.3, 0, 0.4], leaves: 0.2, over: 0.7}";
+      "{box: [0.06, 0.06, 0.06], at: [0.6, 0, 0.4], moves: {to: [0.3, 0, 0.4], from: 0.2, over: "
+      "0.7}}";
   check(box, to_moving);
   check(box + ", {ball: 0.1, at: [0, 0.4, 0.4]}", [&](const Vector3d& p, double time) {
     return std::min(to_moving(p, time), (p - Vector3d(0.0, 0.4, 0.4)).norm() - 0.1);
@@ -139,7 +141,8 @@ TEST(Obstacles, DoNotPush) {
 TEST(Obstacles, AreSeenWhereTheyAre) {
   const Swing swing;
   const Scene scene = swing.read(
-      "{ball: 0.1, at: [1, 0, 0], to: [2, 0, 0], leaves: 0, over: 1}, {box: [1, 2, 3], at: [0, 9, "
+      "{ball: 0.1, at: [1, 0, 0], moves: {to: [2, 0, 0], from: 0, over: 1}}, {box: [1, 2, 3], at: "
+      "[0, 9, "
       "0]}");
   Replay replay;
   play(scene, Join::dmp3, scene.dt, &replay);
@@ -152,7 +155,7 @@ TEST(Obstacles, AreSeenWhereTheyAre) {
 TEST(Obstacles, MoveFasterInAFasterScene) {
   const Swing swing;
   const std::string ball =
-      "obstacles=[{ball: 0.1, at: [1, 0, 0], to: [2, 0, 0], leaves: 1, over: 3}]";
+      "obstacles=[{ball: 0.1, at: [1, 0, 0], moves: {to: [2, 0, 0], from: 1, over: 3}}]";
   const Scene fast = Scene::read(swing.path, {ball, "speed=2"});
   EXPECT_EQ(fast.obstacles[0].leaves, 0.5);
   EXPECT_EQ(fast.obstacles[0].over, 1.5);
@@ -161,11 +164,11 @@ TEST(Obstacles, MoveFasterInAFasterScene) {
 class ObstaclesRefuse : public testing::TestWithParam<BadFile> {};
 
 TEST_P(ObstaclesRefuse, WithFileLineAndKey) {
-  test::expect_refused(
-      GetParam(),
-      test::scene_text("line") +
-          "obstacles:\n  - {box: [1, 1, 1], at: [5, 0, 0], to: [6, 0, 0], leaves: 0.5, over: 1}\n",
-      TempFolder(), [](const std::string& path) { Scene::read(path); });
+  test::expect_refused(GetParam(),
+                       test::scene_text("line") +
+                           "obstacles:\n  - {box: [1, 1, 1], at: [5, 0, 0], moves: {to: [6, 0, 0], "
+                           "from: 0.5, over: 1}}\n",
+                       TempFolder(), [](const std::string& path) { Scene::read(path); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -178,9 +181,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"FlatBox", "box: [1, 1, 1]", "box: [1, 1, 0]", ":23: key \"box\": must be > 0"},
         BadFile{"BallOfNothing", "box: [1, 1, 1]", "ball: 0", ":23: key \"ball\": 0, must be > 0"},
         BadFile{"NoPlace", "at: [5, 0, 0], ", "", ":23: key \"obstacles\": needs the key \"at\""},
-        BadFile{"NoTime", ", over: 1", "", ":23: key \"obstacles\": needs the key \"over\""},
+        BadFile{"NoTime", ", over: 1", "", ":23: key \"moves\": needs the key \"over\""},
         BadFile{"AtOnce", "over: 1", "over: 0", ":23: key \"over\": 0, must be > 0"},
-        BadFile{"NoWay", "to: [6, 0, 0], ", "", ":23: key \"leaves\": goes with to alone"},
+        BadFile{"NoWay", "to: [6, 0, 0], ", "", ":23: key \"moves\": needs the key \"to\""},
         BadFile{"UnknownKey", "over: 1", "under: 1", ":23: key \"under\": not known here"}),
     test::by_name);
 

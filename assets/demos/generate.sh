@@ -1,9 +1,9 @@
 #!/bin/sh
-# Generates the demonstrations of four kitchen motions and two minimum-jerk movements: ./generate.sh [FOLDER], its own folder if none
+# Generates the demonstrations of a person's motions and two minimum-jerk movements: ./generate.sh [FOLDER], its own folder if none
 # is given. The same bytes every time, by any awk.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-for motion in reach pour wipe carry_lift carry_place wipe_approach wipe_away; do
+for motion in reach pour wipe carry_lift carry_place wipe_approach wipe_away catch follow aim thread; do
   LC_ALL=C awk -v motion=$motion -f "$here/generate.awk" > "${1:-$here}/$motion.csv"
 done
 minimum_jerk() {  # from, to

@@ -42,7 +42,8 @@ def test_a_scene_is_read_and_looked_at():
 
 
 def test_events_happen_to_a_sequencer():
-    scene = seam.Scene.read("catching")
+    seen = "{from: 0.4, to: 1.2, every: 0.1, goal: {E1: 1.3}, velocity: {E1: 0.1}, noise: 0.002}"
+    scene = seam.Scene.read("line", [f"events=[{seen}]"])
     assert scene.events and scene.events[0].what == seam.Event.What.goal
     sequencer = seam.Sequencer(scene.sequence, "dmp2a")
     for event in scene.events[:3]:
