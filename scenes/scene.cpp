@@ -53,6 +53,10 @@ void read_steps(const YamlEntry& entry, Scene& scene) {
     reference(scene, primitive)->require_reachable(primitive);
   });
   scene.sequence = std::move(file.sequence);
+  for (const Sequence::Step& step : scene.sequence.steps())
+    if (!step.wishes.empty())
+      at_key(entry.at("steps"),
+             [&] { reference(scene, step.primitive)->require_reachable_step(step); });
   scene.primitive_names = std::move(file.primitives);
 }
 

@@ -431,6 +431,73 @@ TEST(SequenceFile, IsReadAsItIsDocumented) {
   EXPECT_EQ(steps[3].until.value, 0.0);
 }
 
+// The same with wishes: the demonstration is learned with 12 kernels.
+const std::string wishing =
+    replaced(good_sequence, "{play: ramp, until: {at_phase: 0.2}}", R"({play: ramp, leave: {x: 2},
+     pass: [{position: {x: 0.3}, at: 0.4}, {velocity: {y: 0.1}, acceleration: {x: 0}, at_phase: 0.3}],
+     hit: {position: {x: 0.9, y: 0.2}, velocity: {x: 1}, at: 0.8}}
+  - {play: ramp, arrive: {before_end: 0.1, smooth: no}}
+  - {play: ramp, arrive: yes})");
+
+TEST(SequenceFile, ReadsWishesAsTheyAreDocumentedAndWritesThemBack) {
+  const TempFolder folder;
+  write_parts(folder);
+  const std::string text = replaced(wishing, "seam-sequence 1", "seam-sequence 2");
+  const SequenceFile read = read_sequence(folder.write("good.yaml", text));
+  const std::string again = folder.path("again.yaml");
+  write_sequence(again, read);
+  EXPECT_THAT(test::read_file(again), StartsWith("format: seam-sequence 2\n"));
+  for (const SequenceFile& file : {read, read_sequence(again)}) {
+    const auto& steps = file.sequence.steps();
+    const auto& wishes = steps[2].wishes;
+    ASSERT_EQ(wishes.size(), 3u);
+    EXPECT_EQ(steps[2].leave(0), 2.0);
+    EXPECT_TRUE(std::isnan(steps[2].leave(1)));
+    EXPECT_EQ(wishes[0].position(0), 0.3);
+    EXPECT_TRUE(std::isnan(wishes[0].position(1)));
+    EXPECT_EQ(wishes[0].when.when, Switch::When::after);
+    EXPECT_EQ(wishes[0].when.value, 0.4);
+    EXPECT_EQ(wishes[1].velocity(1), 0.1);
+    EXPECT_EQ(wishes[1].acceleration(0), 0.0);
+    EXPECT_EQ(wishes[1].when.when, Switch::When::at_phase);
+    EXPECT_EQ(wishes[2].then, Wish::Then::hand_over);
+    EXPECT_EQ(wishes[2].position(1), 0.2);
+    EXPECT_EQ(steps[2].until.when, Switch::When::after);
+    EXPECT_EQ(steps[2].until.value, 0.8);
+    EXPECT_EQ(steps[3].wishes[0].then, Wish::Then::stay);
+    EXPECT_EQ(steps[3].wishes[0].when.value, 0.1);
+    EXPECT_FALSE(steps[3].wishes[0].smooth);
+    EXPECT_TRUE(steps[4].wishes[0].smooth);
+    EXPECT_TRUE(steps[5].wishes.empty());
+  }
+  write_sequence(again, read_sequence(folder.write("plain.yaml", good_sequence)));
+  EXPECT_THAT(test::read_file(again), StartsWith("format: seam-sequence 1\n"));
+}
+
+TEST(SequenceFile, RefusesWishesThatCannotBe) {
+  const TempFolder folder;
+  write_parts(folder);
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    return test::refusal(
+        [&] { read_sequence(folder.write("bad.yaml", replaced(wishing, from, to))); });
+  };
+  EXPECT_THAT(refused("position: {x: 0.3}", "position: {z: 0.3}"),
+              HasSubstr("key \"z\": is not among the primitives' coordinates"));
+  EXPECT_THAT(refused("position: {x: 0.3}", "position: {x: .nan}"), HasSubstr("key \"x\": "));
+  EXPECT_THAT(refused("{x: 0.3}, at: 0.4", "{x: 0.3}"), HasSubstr("needs its moment"));
+  EXPECT_THAT(refused("at: 0.4", "at: 0.4, cycles: 2"), HasSubstr("not several"));
+  EXPECT_THAT(refused("at: 0.4", "at: 0.0001"), HasSubstr("asks too much"));
+  EXPECT_THAT(refused("at: 0.4", "at: -1"), HasSubstr("must be > 0"));
+  EXPECT_THAT(refused("at: 0.4", "at: 0.9"), HasSubstr("must be before its switch"));
+  EXPECT_THAT(refused("position: {x: 0.3}, at", "orientation: [0, 0, 0, 1], at"),
+              HasSubstr("key \"orientation\": "));
+  EXPECT_THAT(refused("leave: {x: 2}", "leave: {q: 2}"), HasSubstr("key \"q\""));
+  EXPECT_THAT(refused("smooth: no", "smooth: perhaps"), HasSubstr("smooth"));
+  EXPECT_THAT(refused("arrive: yes", "arrive: soon"), HasSubstr("arrive"));
+  EXPECT_THAT(refused("enter: {phase: 1.5}", "arrive: yes, enter: {phase: 1.5}"),
+              HasSubstr("rhythmic"));
+}
+
 // The primitive as it was written before there were reference orientations, of an orientation.
 const std::string old_turn = replaced(
     replaced(replaced(replaced(good_primitive, "\"x\", \"y\"", "rx, ry, rz"), "0.3, +1e-1",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Core>
 
@@ -24,6 +25,8 @@ class Ode {
   Matrix weights, change;  // M × D
   Vector goal;
   Real tau, amplitude = 1.0L;
+  /// C(y, ẏ, t); may be empty.
+  std::function<Vector(const Vector&, const Vector&, Real)> coupling;
 
   /// Stands at the primitive's own start.
   explicit Ode(const Primitive& from)
@@ -32,7 +35,7 @@ class Ode {
         change(Matrix::Zero(from.weights.rows(), from.weights.cols())),
         goal(from.goal.cast<Real>()),
         tau(from.tau),
-        now_{Matrix::Zero(from.dimensions(), 5), rhythmic() ? 0.0L : 1.0L} {
+        now_{Matrix::Zero(from.dimensions(), 5), rhythmic() ? 0.0L : 1.0L, 0.0L} {
     now_.x.col(y) = from.start_position.cast<Real>();
     now_.x.col(yd) = from.start_velocity.cast<Real>();
     now_.x.col(r) = goal;
@@ -46,10 +49,13 @@ class Ode {
     m << now_.x.col(y), now_.x.col(yd), rate.x.col(yd), Vector::Zero(now_.x.rows());
     m.col(yddd) = (Real(g.K) * (rate.x.col(r) - m.col(yd)) - tau * Real(g.D) * m.col(ydd) +
                    forcing_rate(now_)) /
-                  (tau * tau);
+                      (tau * tau) +
+                  coupled_rate(m);
     return m;
   }
   Real phase() const { return now_.p; }
+  Real time() const { return now_.t; }
+  void set_time(Real time) { now_.t = time; }
   Vector added() const { return now_.x.col(e); }
 
   /// Continues a motion (D × 4) at a phase.
@@ -106,7 +112,8 @@ class Ode {
   struct State {
     Matrix x;  // D × 5
     Real p;    // phase
-    State plus(const State& k, Real h) const { return {x + h * k.x, p + h * k.p}; }
+    Real t;    // time, which a coupling depends on
+    State plus(const State& k, Real h) const { return {x + h * k.x, p + h * k.p, t + h * k.t}; }
   };
 
   bool rhythmic() const { return primitive.kind == Kind::rhythmic; }
@@ -152,23 +159,39 @@ class Ode {
   State slope(const State& s) const {
     const Gains& g = primitive.gains;
     const Real decay = Real(g.H) / tau;
-    State rate{Matrix(s.x.rows(), 5), phase_rate(s.p)};
+    State rate{Matrix(s.x.rows(), 5), phase_rate(s.p), 1.0L};
     rate.x.col(y) = s.x.col(yd);
     rate.x.col(yd) =
         (Real(g.K) * (s.x.col(r) - s.x.col(y)) - Real(g.D) * tau * s.x.col(yd) + forcing(s)) /
         (tau * tau);
+    if (coupling) rate.x.col(yd) += coupling(s.x.col(y), s.x.col(yd), s.t);
     rate.x.col(r) = Real(g.H) / tau * (goal - s.x.col(r));
     rate.x.col(e) = s.x.col(ed);
     rate.x.col(ed) = -2.0L * decay * s.x.col(ed) - decay * decay * s.x.col(e);
     return rate;
   }
 
+  Vector coupled(const Vector& at, const Vector& moving, Real t) const {
+    return coupling ? coupling(at, moving, t) : Vector::Zero(at.size());
+  }
+  /// Along a motion, by a central difference.
+  Vector coupled_rate(const Matrix& m) const {
+    const Real h = 1e-6L;
+    const auto shifted = [&](Real by) {
+      return coupled(m.col(y) + by * m.col(yd) + by * by / 2 * m.col(ydd),
+                     m.col(yd) + by * m.col(ydd), now_.t + by);
+    };
+    return (shifted(h) - shifted(-h)) / (2 * h);
+  }
+
   void continue_from(const Matrix& m, bool joining) {
     const Gains& g = primitive.gains;
-    const Vector missing = tau * tau * m.col(ydd) + Real(g.D) * tau * m.col(yd) -
+    const Vector acts = coupled(m.col(y), m.col(yd), now_.t);
+    const Vector missing = tau * tau * (m.col(ydd) - acts) + Real(g.D) * tau * m.col(yd) -
                            Real(g.K) * (goal - m.col(y)) - forcing(now_);
-    const Vector missing_rate = tau * tau * m.col(yddd) + Real(g.D) * tau * m.col(ydd) +
-                                Real(g.K) * m.col(yd) - forcing_rate(now_);
+    const Vector missing_rate = tau * tau * (m.col(yddd) - coupled_rate(m)) +
+                                Real(g.D) * tau * m.col(ydd) + Real(g.K) * m.col(yd) -
+                                forcing_rate(now_);
     now_.x.leftCols(2) = m.leftCols(2);
     now_.x.col(r) = goal;
     if (join_.method == Join::dmp3) now_.x.col(r) += missing / Real(g.K);

@@ -350,6 +350,51 @@ TEST_P(OfEveryMethod, TellsItsPriceBeforehand) {
   }
 }
 
+// Pushes while the first coordinate is in a region, smoothly.
+class Push : public Coupling {
+ public:
+  void add(const Eigen::VectorXd& y, const Eigen::VectorXd&, double,
+           Eigen::VectorXd& ydd) const noexcept override {
+    const double inside = 1.0 - std::pow((y(0) - 0.2) / 0.15, 2);
+    if (inside > 0.0) ydd(1) += 20.0 * inside * inside * inside;
+  }
+};
+
+TEST(Wish, IsMetAgainOnceACouplingHasLetGo) {
+  LearnSettings settings;
+  settings.kernels = 20;
+  Primitive primitive = learn(test::minimum_jerk(), settings);
+  const Primitive one = primitive;
+  primitive.coordinates = {"y0", "y1"};
+  primitive.weights = one.weights.replicate(1, 2);
+  primitive.goal = Eigen::Vector2d(1.0, 1.0);
+  primitive.start_position = primitive.start_velocity = primitive.start_acceleration =
+      Eigen::Vector2d::Zero();
+  for (const Join method : all_joins) {
+    Execution execution(primitive, {pass(vector({0.8, 0.85}), at(0.75)), arrive()});
+    execution.couple(std::make_shared<Push>(), 0.0);
+    execution.reinitialise(Sample::at_rest(Eigen::Vector2d::Zero()), 1.0, method);
+    double jump = 0.0, peak = 0.0, apart = 0.0;
+    Eigen::VectorXd last = execution.sample().acceleration;
+    for (int k = 0; k < 750; ++k) {
+      execution.step(dt);
+      const Eigen::VectorXd now = execution.sample().acceleration;
+      jump = std::max(jump, largest(now - last));
+      peak = std::max(peak, largest(now));
+      apart = std::max(apart,
+                       std::abs(execution.sample().position(1) - execution.sample().position(0)));
+      last = now;
+    }
+    SCOPED_TRACE(to_string(method));
+    EXPECT_GT(apart, 0.05) << "the coupling pushes";
+    EXPECT_LE(jump, 0.03 * peak) << "within a tick";
+    EXPECT_LE(largest(execution.sample().position - vector({0.8, 0.85})), 1e-9);
+    EXPECT_TRUE(execution.wishes_hold());
+    advance(execution, 0.25);
+    EXPECT_LE(largest(execution.sample().position - primitive.goal), 1e-9);
+  }
+}
+
 TEST(Wish, ToLeaveWithAnAccelerationIsGranted) {
   std::mt19937_64 random(seed + 7);
   for (const JoinSettings& method : test::all_methods()) {

@@ -14,6 +14,7 @@ import headers  # noqa: E402
 # Whole headers, and single names, with the reason.
 LEFT_OUT_HEADERS = {
     "alignment.hpp": "of compiled code alone",
+    "conditions.hpp": "a part of Execution; numpy.linalg.lstsq does it",
     "compensated_sum.hpp": "a part of the sequencer; Python has math.fsum",
     "export.hpp": "of compiled code alone",
     "noise.hpp": "a part of the sensor; numpy has its own",

@@ -24,7 +24,7 @@ std::unique_ptr<JointReference> reference(const RobotModel& model, const Sequenc
     joints = std::make_unique<TaskSpace>(model, sequence, *tool, q);
   else
     joints = std::make_unique<JointSpace>(model, sequence.coordinates());
-  for (const Sequence::Step& step : sequence.steps()) joints->require_reachable(step.primitive);
+  for (const Sequence::Step& step : sequence.steps()) joints->require_reachable_step(step);
   return joints;
 }
 

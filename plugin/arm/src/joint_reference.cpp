@@ -33,6 +33,22 @@ void require_within_limits(const Joint& joint, double goal, double slack, const 
 
 }  // namespace
 
+void JointReference::require_reachable_step(const Sequence::Step& step) {
+  require_reachable(step.primitive);
+  for (std::size_t i = 0; i < step.wishes.size(); ++i) {
+    const Eigen::VectorXd& position = step.wishes[i].position;
+    if (position.size() == 0 || (moves_tool() && position.head<3>().array().isNaN().any()))
+      continue;
+    Primitive there = step.primitive;
+    there.goal = position.array().isNaN().select(step.primitive.goal, position);
+    try {
+      require_reachable(there);
+    } catch (const Error& error) {
+      throw Error("wish " + std::to_string(i + 1), error.what());
+    }
+  }
+}
+
 Followers::Followers(const RobotModel& robot) {
   for (int i = 0; i < robot.dof(); ++i) {
     const Joint& joint = robot.joints[static_cast<std::size_t>(i)];

@@ -142,10 +142,12 @@ bool Execution::find_from(const Sample& from, double phase, bool at_join) noexce
   passed_ += elapsed_;
   elapsed_ = 0.0;
   entry_phase_ = phase_ = phase;
-  look_ahead();
+  schedule();
   hold_off_fading();
   evaluate_regressor();
   const bool enters = at_join && passed_ == 0.0;
+  measure_coupling(from);
+  measure_coupling_rate(from);
   const bool by_weights = weights_hold() && (at_join || kind() == Kind::discrete);
   missing_.setZero();
   delta_.setZero();
@@ -189,6 +191,7 @@ void Execution::go_on() noexcept {
     change() += delta_;
     fading_ = fading_ || !delta_.isZero(0.0);
   }
+  if (coupled_.coupling) at(f_start).head(dimensions()) += tau_ * tau_ * coupled_.value;
   refresh_sample();
 }
 
@@ -215,7 +218,7 @@ void Execution::go_back() noexcept {
   fade_from_ = fade_from_before_;
   fading_ = fading_before_;
   dt_ = std::numeric_limits<double>::quiet_NaN();
-  look_ahead();
+  schedule();
 }
 
 bool Execution::weights_hold() const noexcept {
@@ -264,9 +267,12 @@ Execution::Forcing Execution::needed(const Sample& from, double acceleration,
                                      Eigen::Index d) const noexcept {
   const double tau2 = tau_ * tau_;
   const double damping = tau_ * gains_.D;
-  return {tau2 * acceleration + damping * from.velocity(d) -
-              gains_.K * (at(target)(d) - from.position(d)),
-          tau2 * from.jerk(d) + damping * acceleration + gains_.K * from.velocity(d)};
+  Forcing needs{tau2 * acceleration + damping * from.velocity(d) -
+                    gains_.K * (at(target)(d) - from.position(d)),
+                tau2 * from.jerk(d) + damping * acceleration + gains_.K * from.velocity(d)};
+  if (coupled_.coupling)
+    needs.value -= tau2 * coupled_.value(d), needs.rate -= tau2 * coupled_.rate(d);
+  return needs;
 }
 
 void Execution::step(double dt) noexcept {
@@ -276,9 +282,11 @@ void Execution::step(double dt) noexcept {
     arrive();
     dt -= left;
   }
+  const bool pushed = coupled_.coupling && !coupled_.value.isZero(0.0);
   const int parts = fading_ ? fading_parts : 1;
   for (int i = 0; i < parts; ++i) advance(dt / parts);
   refresh_sample();
+  if (pushed && coupled_.value.isZero(0.0)) wish_anew();
 }
 
 void Execution::advance(double dt) noexcept {
@@ -290,9 +298,12 @@ void Execution::advance(double dt) noexcept {
   basis_.forcing(middle, phase_, weights().data(), stride, at(f_middle).data(), at(f_end).data());
   if (fading_) add_fading(middle);
   if (amplitude_ != 1.0) at(f_middle) *= amplitude_, at(f_end) *= amplitude_;
+  const bool coupled = coupled_.coupling != nullptr;
+  if (coupled) predict_coupling(dt);
   propagate(propagator_.Phi.data(), propagator_.Gamma.data(), stride, at(f_start).data(),
             at(f_middle).data(), at(f_end).data(), at(offset).data(), at(velocity).data(),
             at(added).data(), at(added_rate).data());
+  if (coupled) finish_coupling(dt);
 }
 
 void Execution::add_fading(double middle) noexcept {
@@ -307,6 +318,7 @@ void Execution::set_step(double dt) noexcept {
   dt_ = dt;
   half_step_ = basis_.advance(basis_.start_phase(), 0.5 * dt, tau_);
   propagator_ = Propagator(gains_, tau_, dt);
+  set_coupled_step(dt);
 }
 
 void Execution::refresh_sample() noexcept {
@@ -323,6 +335,8 @@ const Sample& Execution::state() noexcept {
                        tau_ * gains_.D * sample_.acceleration(d)) /
                       (tau_ * tau_);
   }
+  measure_coupling_rate(sample_);
+  if (coupled_.coupling) sample_.jerk += coupled_.rate;
   return sample_;
 }
 
@@ -353,6 +367,7 @@ bool Execution::set_amplitude(double amplitude) noexcept {
 
 double Execution::correction(const Sample& from, double phase) noexcept {
   basis_.regressor(phase, row_.data());
+  measure_coupling(from);
   double sum = 0.0;
   for (Eigen::Index d = 0; d < dimensions(); ++d) {
     const double has = amplitude_ * learned().row(d).head(basis_.count()).dot(row_);

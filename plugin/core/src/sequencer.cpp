@@ -39,6 +39,18 @@ Execution made(const Sequence::Step& step, std::size_t index, const JoinSettings
   return execution;
 }
 
+class CouplingSum : public Coupling {
+ public:
+  explicit CouplingSum(std::vector<std::shared_ptr<Coupling>> parts) : parts_(std::move(parts)) {}
+  void add(const Eigen::VectorXd& y, const Eigen::VectorXd& yd, double t,
+           Eigen::VectorXd& ydd) const noexcept override {
+    for (const auto& part : parts_) part->add(y, yd, t, ydd);
+  }
+
+ private:
+  std::vector<std::shared_ptr<Coupling>> parts_;
+};
+
 bool usable(const Sample& at, int dimensions) {
   for (const Eigen::VectorXd* part : {&at.position, &at.velocity, &at.acceleration, &at.jerk})
     if (part->size() != dimensions || !part->allFinite()) return false;
@@ -88,6 +100,7 @@ void Sequencer::push(const Sequence& sequence) {
   for (std::size_t i = 0; i < sequence.steps().size(); ++i) {
     const Sequence::Step& step = sequence.steps()[i];
     items_.push_back({made(step, i, join_), rest_of(step.primitive), step.until, step.entry});
+    if (coupling_) couple(items_.back());
   }
   JoinEvent event;
   event.price = items_.front().execution.price();
@@ -188,6 +201,7 @@ bool Sequencer::hand_over() noexcept {
 void Sequencer::switch_over() noexcept {
   if (to_come() > 0) {
     Item& next = items_[static_cast<std::size_t>(running_ + 1 - first_)];
+    take_along(next.execution);
     double phase = phase_of(next.entry, next.execution.basis());
     if (std::isnan(phase)) phase = next.execution.least_correction_phase(motion());
     join_to(next.execution, phase, running_ + 1);
@@ -197,6 +211,7 @@ void Sequencer::switch_over() noexcept {
   finished_ = true;
   if (running_ >= 0 && now().kind() == Kind::rhythmic) {
     Execution& rest = *item().rest;
+    take_along(rest);
     rest.set_goal(now().goal());
     rest.set_tau(M_PI * now().tau());
     join_to(rest, rest.basis().start_phase(), running_);
@@ -221,6 +236,56 @@ void Sequencer::join_to(Execution& next, double phase, int primitive) noexcept {
   event.jerk_before = before.jerk;
   event.jerk_after = after.jerk;
   event.price = next.price();
+}
+
+void Sequencer::add_coupling(std::shared_ptr<Coupling> coupling) {
+  if (!coupling) throw Error("sequencer", "a coupling is null");
+  auto all = couplings_;
+  all.push_back(std::move(coupling));
+  couple(std::move(all));
+  ++changes_;
+}
+
+bool Sequencer::remove_coupling(const std::shared_ptr<Coupling>& coupling) {
+  auto all = couplings_;
+  const auto found = std::find(all.begin(), all.end(), coupling);
+  if (found == all.end()) return false;
+  all.erase(found);
+  couple(std::move(all));
+  ++changes_;
+  return true;
+}
+
+void Sequencer::clear_couplings() {
+  couple({});
+  ++changes_;
+}
+
+void Sequencer::couple(std::vector<std::shared_ptr<Coupling>> all) {
+  std::shared_ptr<const Coupling> sum;
+  if (all.size() == 1) sum = all.front();
+  if (all.size() > 1) sum = std::make_shared<CouplingSum>(all);
+  const bool at_start = running_ == 0 && time() == 0.0;
+  const Sample start = at_start ? now().state() : start_;
+  couplings_ = std::move(all);
+  coupling_ = std::move(sum);
+  for (Item& item : items_) couple(item);
+  if (at_start) {
+    now().reinitialise(start, entry_phase_, join_);
+    events_.front().acceleration_after = now().state().acceleration;
+    events_.front().jerk_after = now().state().jerk;
+  }
+  rescale();
+}
+
+void Sequencer::couple(Item& item) const {
+  item.execution.couple(coupling_, motion_time());
+  if (item.rest) item.rest->couple(coupling_, motion_time());
+}
+
+// To the time at which it begins; it has the memory.
+void Sequencer::take_along(Execution& next) const noexcept {
+  if (coupling_) next.couple(coupling_, motion_time());
 }
 
 bool Sequencer::set_goal(const Eigen::Ref<const Eigen::VectorXd>& goal) noexcept {

@@ -129,7 +129,7 @@ double Execution::due_in(const Wish& wish) const noexcept {
 }
 
 // When everything is that is still to come.
-void Execution::look_ahead() noexcept {
+void Execution::schedule() noexcept {
   arrival_ = never;
   for (Slot& slot : slots_) {
     const double left = slot.live ? due_in(slot.wish) : 0.0;
@@ -334,7 +334,7 @@ bool Execution::set_wish(int which, const Wish& wish) noexcept {
     return true;
   }
   slot = spare_;
-  look_ahead();
+  schedule();
   return false;
 }
 
@@ -353,7 +353,7 @@ const Price& Execution::price_of(int which, const Wish& wish) noexcept {
 
 void Execution::drop_wishes() noexcept {
   for (Slot& slot : slots_) slot.live = false;
-  look_ahead();
+  schedule();
 }
 
 // At the goal: from here on there is no forcing but what may be missing for the acceleration, which dies out.
@@ -363,6 +363,15 @@ void Execution::arrive() noexcept {
   stays_ = true;
   weights().setZero();
   find_from(now, phase_, false);
+  go_on();
+}
+
+// After a coupling has let go.
+void Execution::wish_anew() noexcept {
+  schedule();
+  if (!asked()) return;
+  const Sample& now = remember();
+  if (!go_on_or_back(now)) wishes_hold_ = false;
 }
 
 void Execution::require_possible(double phase, const JoinSettings& join) {

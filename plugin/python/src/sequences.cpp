@@ -53,6 +53,7 @@ void bind_switches(py::module_& module) {
   change.field("when", &Switch::when).field("value", &Switch::value).made_of_fields();
   def(module, "after", &after, py::arg("seconds"));
   def(module, "before_end", &before_end, py::arg("seconds"));
+  def(module, "at", &at, py::arg("seconds"));
   def(module, "at_end", &at_end);
   def(module, "at_phase", &at_phase, py::arg("phase"));
   def(module, "near_goal", &near_goal, py::arg("distance"));
@@ -69,13 +70,77 @@ void bind_switches(py::module_& module) {
   def(module, "least_correction", &least_correction);
 }
 
+void bind_wishes(py::module_& module) {
+  Class<Wish> wish(module, "Wish");
+  Enum<Wish::Then>(*wish, "Then", "Wish::Then")
+      .value("go_on", Wish::Then::go_on)
+      .value("hand_over", Wish::Then::hand_over)
+      .value("stay", Wish::Then::stay);
+  wish.field("when", &Wish::when)
+      .field("position", &Wish::position)
+      .field("velocity", &Wish::velocity)
+      .field("acceleration", &Wish::acceleration)
+      .field("then", &Wish::then)
+      .field("smooth", &Wish::smooth)
+      .made_of_fields();
+  module.def(
+      "pass_",
+      [](const Numbers& position, const Switch& when) {
+        return pass(position.vector("position"), when);
+      },
+      doc("pass"), py::arg("position"), py::arg("when"));
+  def(
+      module, "hit",
+      [](const Numbers& position, const Numbers& velocity, const Switch& when) {
+        return hit(position.vector("position"), velocity.vector("velocity"), when);
+      },
+      py::arg("position"), py::arg("velocity"), py::arg("when"));
+  def(module, "arrive", &arrive, py::arg("when") = at_end(), py::arg("smooth") = true);
+  module.attr("most_wishes") = most_wishes;
+  Class<Price>(module, "Price")
+      .field("possible", &Price::possible)
+      .field("deviation", &Price::deviation)
+      .field("acceleration", &Price::acceleration)
+      .made_of_fields();
+}
+
+// Refuses what set_wish cannot know how to read.
+const Wish& fitting(const Wish& wish, int dimensions) {
+  const std::pair<const char*, const Eigen::VectorXd&> all[] = {
+      {"position", wish.position},
+      {"velocity", wish.velocity},
+      {"acceleration", wish.acceleration}};
+  for (const auto& [name, values] : all)
+    if (values.size() != 0) require_shape(values, dimensions, 1, name);
+  return wish;
+}
+
+// What one who plays can be asked and told of wishes.
+template <typename Player>
+void bind_wishing(Class<Player>& player) {
+  player
+      .def(
+          "set_wish",
+          [](Player& self, int which, const Wish& wish) {
+            return self.set_wish(which, fitting(wish, self.dimensions()));
+          },
+          py::arg("which"), py::arg("wish"))
+      .def("drop_wishes", &Player::drop_wishes)
+      .def(
+          "price_of",
+          [](Player& self, int which, const Wish& wish) {
+            return Price(self.price_of(which, fitting(wish, self.dimensions())));
+          },
+          py::arg("which"), py::arg("wish"))
+      .property("price", [](const Player& self) { return Price(self.price()); })
+      .property("wishes", &Player::wishes)
+      .property("wishes_hold", &Player::wishes_hold);
+}
+
 Sequence sequence_of(const std::vector<Sequence::Step>& steps, double start_delay) {
   Sequence sequence;
   if (start_delay != 0.0) sequence.start_after(start_delay);
-  for (const Sequence::Step& step : steps) {
-    sequence.then(step.primitive).until(step.until);
-    if (step.primitive.kind == Kind::rhythmic) sequence.enter(step.entry);
-  }
+  for (const Sequence::Step& step : steps) sequence.then(step);
   return sequence;
 }
 
@@ -85,6 +150,8 @@ void bind_sequence(py::module_& module) {
       .field("primitive", &Sequence::Step::primitive)
       .field("until", &Sequence::Step::until)
       .field("entry", &Sequence::Step::entry)
+      .field("wishes", &Sequence::Step::wishes)
+      .field("leave", &Sequence::Step::leave)
       .made_of_fields();
   (*sequence)
       .def(py::init<>(), "Empty: primitives are added by `then`.")
@@ -128,6 +195,32 @@ void bind_sequence(py::module_& module) {
           "enter",
           [](Sequence& self, const Entry& entry) -> Sequence& { return self.enter(entry); },
           py::arg("entry"), itself)
+      .def_as(
+          "pass_", "pass",
+          [](Sequence& self, const Values& position, const Switch& when) -> Sequence& {
+            return self.pass(position, when);
+          },
+          py::arg("position"), py::arg("when"), itself)
+      .def(
+          "hit",
+          [](Sequence& self, const Values& position, const Values& velocity,
+             const Switch& when) -> Sequence& { return self.hit(position, velocity, when); },
+          py::arg("position"), py::arg("velocity"), py::arg("when"), itself)
+      .def(
+          "arrive",
+          [](Sequence& self, const Switch& when, bool smooth) -> Sequence& {
+            return self.arrive(when, smooth);
+          },
+          py::arg("when") = at_end(), py::arg("smooth") = true, itself)
+      .def(
+          "leave",
+          [](Sequence& self, const Values& acceleration) -> Sequence& {
+            return self.leave(acceleration);
+          },
+          py::arg("acceleration"), itself)
+      .def(
+          "wish", [](Sequence& self, const Wish& wish) -> Sequence& { return self.wish(wish); },
+          py::arg("wish"), itself)
       .property("start_delay", &Sequence::start_delay)
       .property("steps",
                 [](const Sequence& self) {
@@ -175,7 +268,26 @@ void require_phase(const Execution& execution, double phase) {
 void bind_execution(py::module_& module) {
   Class<Execution> execution(module, "Execution");
   execution
-      .init([](const Primitive& primitive) { return Execution(primitive); }, py::arg("primitive"))
+      .init(
+          [](const Primitive& primitive, const std::vector<Wish>& wishes,
+             const std::optional<Numbers>& leave) {
+            return Execution(
+                primitive, wishes,
+                leave ? leave->vector("leave", primitive.dimensions()) : Eigen::VectorXd());
+          },
+          py::arg("primitive"), py::arg("wishes") = std::vector<Wish>{},
+          py::arg("leave") = py::none())
+      .def(
+          "require_possible",
+          [](Execution& self, double phase, const JoinChoice& join) {
+            require_phase(self, phase);
+            self.require_possible(phase, join.value);
+          },
+          py::arg("phase"), py::arg("join") = "dmp3")
+      .def(
+          "resume",
+          [](Execution& self, const Start& at) { self.resume(at.of(self.dimensions(), "from")); },
+          py::arg("from_"))
       .def(
           "reinitialise",
           [](Execution& self, const Start& at, double phase, const JoinChoice& join) {
@@ -224,6 +336,7 @@ void bind_execution(py::module_& module) {
       .property("amplitude", &Execution::amplitude)
       .property("goal", [](const Execution& self) { return Eigen::VectorXd(self.goal()); })
       .property("dimensions", &Execution::dimensions);
+  bind_wishing(execution);
 }
 
 void bind_sequencer(py::module_& module) {
@@ -234,6 +347,7 @@ void bind_sequencer(py::module_& module) {
       .field("acceleration_after", &JoinEvent::acceleration_after)
       .field("jerk_before", &JoinEvent::jerk_before)
       .field("jerk_after", &JoinEvent::jerk_after)
+      .field("price", &JoinEvent::price)
       .made_of_fields();
 
   Class<Sequencer> sequencer(module, "Sequencer");
@@ -276,6 +390,7 @@ void bind_sequencer(py::module_& module) {
       .property("sample", [](const Sequencer& self) { return Sample(self.sample()); })
       .property("state", [](Sequencer& self) { return Sample(self.state()); })
       .property("time", &Sequencer::time)
+      .property("own_time", &Sequencer::own_time)
       .property("rate", &Sequencer::rate)
       .property("goal", [](const Sequencer& self) { return Eigen::VectorXd(self.goal()); })
       .property("running", &Sequencer::running)
@@ -301,6 +416,7 @@ void bind_sequencer(py::module_& module) {
           "What happened at a join, a JoinEvent; 0 is the start.\n\nRaises:\n    IndexError: not "
           "first_join <= i < joins",
           py::arg("i"));
+  bind_wishing(sequencer);
   (*sequencer).attr("kept_joins") = Sequencer::kept_joins;
 
   Class<TimeScale> scale(module, "TimeScale");
@@ -368,6 +484,7 @@ void bind_rollout(py::module_& module) {
 void bind_sequences(py::module_& module) {
   bind_join(module);
   bind_switches(module);
+  bind_wishes(module);
   bind_sequence(module);
   bind_files(module);
   bind_execution(module);

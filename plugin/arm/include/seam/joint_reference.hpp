@@ -38,11 +38,17 @@ class JointReference {
                        Eigen::VectorXd& joints) noexcept = 0;
   /// @throws Error  a goal of the sequence that the robot cannot reach
   virtual void require_reachable(const Primitive& primitive) = 0;
+  /// @throws Error  a goal or a position that is wished which the robot cannot reach; of a tool those are looked at that
+  ///                name x, y and z
+  void require_reachable_step(const Sequence::Step& step);
   /// The joints' state for a sample of the sequence. Neither allocates nor throws.
   /// @return  false where there is none; `joints` is then left as it was
   virtual bool find(const Sample& sample, Sample& joints) noexcept = 0;
   /// How far the tool is from a sample of the sequence while the joints are at q; nothing in joint space.
   virtual ToolError miss(const Sample& sample, const Eigen::VectorXd& q) noexcept = 0;
+
+ private:
+  virtual bool moves_tool() const noexcept { return false; }
 };
 
 /// The followers among a robot's joints, and where a reference has them.
@@ -127,6 +133,7 @@ class TaskSpace final : public JointReference {
   Eigen::Isometry3d tool_at(const Eigen::VectorXd& q) const noexcept;
 
  private:
+  bool moves_tool() const noexcept override { return true; }
   bool turns() const noexcept { return dimensions_ == 6; }
   bool state_at(const Eigen::VectorXd& q, const Eigen::VectorXd& qd, Sample& at) noexcept;
   bool to_tool(const Sample& sample) noexcept;

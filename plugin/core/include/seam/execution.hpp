@@ -11,6 +11,7 @@
 #include <seam/basis.hpp>
 #include <seam/compensated_sum.hpp>
 #include <seam/conditions.hpp>
+#include <seam/coupling.hpp>
 #include <seam/export.hpp>
 #include <seam/join.hpp>
 #include <seam/primitive.hpp>
@@ -54,6 +55,8 @@ class Responses;
 /// more of them than kernels): then the call is refused, and changes nothing. Every change on the way solves the system anew for the wishes
 /// that are still to come.
 ///
+/// A coupling (see couple) takes the motion off what was solved; once it has let go, the system is solved anew.
+///
 /// A rhythmic primitive can be wished to pass and to hit within the cycle that is entered; Δw is blended out from the last wish on.
 class Execution {
  public:
@@ -88,7 +91,8 @@ class Execution {
   void drop_wishes() noexcept;
 
   int wishes() const noexcept { return wishes_; }  // so far, those that are over included
-  /// False where wishes were dropped: the primitive was entered, or resumed, in a state from where they could not be met.
+  /// False where wishes are not met: the primitive was entered, or resumed, in a state from where they could not be, or a coupling
+  /// let go too late.
   bool wishes_hold() const noexcept { return wishes_hold_; }
   /// What the wishes cost with which the primitive was entered; zero without wishes.
   const Price& price() const noexcept { return price_; }
@@ -96,9 +100,17 @@ class Execution {
   /// @return  valid until the next question
   const Price& price_of(int which, const Wish& wish) noexcept;
 
+  /// Adds an acceleration C(y, ẏ, t) to the equation of motion from now on, in place of one that acts; null: none. It
+  /// allocates, what follows does not. F and Ḟ are then less by τ²C and τ²Ċ, so that joins and changes continue ÿ, and the
+  /// jerk, while C acts; ÿ steps by what C is now. Ċ is a central difference along the motion over ±10 µs: of
+  /// what changes within 0.1 s it is exact to some 1e-8, of a C that bends just here it is the mean of both sides.
+  /// @param coupling  shared; it must not be changed within a step
+  /// @param time      [s] of the motion, which C is told; it goes on with the steps
+  void couple(std::shared_ptr<const Coupling> coupling, double time);
+
   /// The present state without the jerk.
   const Sample& sample() const noexcept { return sample_; }
-  /// The present state with the jerk, y⃛ = (K(ṙ − ẏ) − τDÿ + ḟ)/τ².
+  /// The present state with the jerk, y⃛ = (K(ṙ − ẏ) − τDÿ + ḟ)/τ² + Ċ (see couple).
   const Sample& state() noexcept;
 
   /// Square of the step in acceleration, over all coordinates, that dmp2 would leave if the execution were
@@ -140,7 +152,7 @@ class Execution {
   void take(const std::vector<Wish>& wishes, const Eigen::VectorXd& leave);
   void assign(int which, const Wish& wish) noexcept;
   double due_in(const Wish& wish) const noexcept;
-  void look_ahead() noexcept;
+  void schedule() noexcept;
   bool may_set(int which, const Wish& wish) const noexcept;
   const char* unusable(const Wish& wish) const noexcept;
   bool refuse(std::size_t i, const char* why) noexcept;
@@ -156,6 +168,7 @@ class Execution {
   void estimate(Price& price) noexcept;
   void keep_worst(Price& price) const noexcept;
   void arrive() noexcept;
+  void wish_anew() noexcept;
 
   bool weights_hold() const noexcept;
   void evaluate_regressor() noexcept;
@@ -166,6 +179,13 @@ class Execution {
   void set_step(double dt) noexcept;
   void add_fading(double middle) noexcept;
   void refresh_sample() noexcept;
+  void evaluate_coupling(double time, Eigen::VectorXd& value) noexcept;
+  void measure_coupling(const Sample& at) noexcept;
+  void measure_coupling_rate(const Sample& at) noexcept;
+  void set_coupled_step(double dt) noexcept;
+  void look_ahead(const Propagator& by) noexcept;
+  void predict_coupling(double dt) noexcept;
+  void finish_coupling(double dt) noexcept;
   double valley(const Sample& at, double low, double high) noexcept;
 
   Gains gains_;
@@ -214,6 +234,17 @@ class Execution {
   double fade_from_ = 1.0;     // φ
   CompensatedSum elapsed_;     // [s] since the last re-initialisation
   double arrival_ = HUGE_VAL;  // likewise, when the motion is to stay
+  // What acts beside the forcing, and what it is worked out with; the columns f_start, f_middle and f_end then hold f + τ²C.
+  struct Coupled {
+    std::shared_ptr<const Coupling> coupling;
+    CompensatedSum time;                 // [s] of the motion
+    Propagator half;                     // to the middle of a step, for the forcing of the whole
+    Eigen::VectorXd position, velocity;  // D, where C is asked for
+    Eigen::VectorXd value, rate;         // D, C and Ċ now
+    Eigen::VectorXd middle, end;         // D, C in a step
+    Eigen::MatrixX2d uncoupled;          // D × 2, the forcing alone there
+  };
+  Coupled coupled_;
   Sample sample_;
   // What wishes need.
   std::shared_ptr<const Responses> responses_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include <seam/alignment.hpp>
 #include <seam/compensated_sum.hpp>
+#include <seam/coupling.hpp>
 #include <seam/execution.hpp>
 #include <seam/export.hpp>
 #include <seam/join.hpp>
@@ -83,6 +85,18 @@ class Sequencer {
   int wishes() const noexcept { return first_or_now().wishes(); }
   /// False where they were dropped, since the primitive began in a state from where they could not be met.
   bool wishes_hold() const noexcept { return first_or_now().wishes_hold(); }
+  /// Adds an acceleration to the motion from now on (see Coupling), also to what is appended later; several add up. While the
+  /// start is held before the first primitive none acts. ÿ steps by what it is when it is added or removed, which
+  /// should be 0; not so before the first step, where the start is joined to again. Adding and removing allocate; the steps do not.
+  /// @param coupling  shared: copies of the sequencer have the same ones, but each its own list
+  /// @throws Error  it is null
+  void add_coupling(std::shared_ptr<Coupling> coupling);
+  /// False where it is not there.
+  bool remove_coupling(const std::shared_ptr<Coupling>& coupling);
+  /// Removes all.
+  void clear_couplings();
+  /// In the order in which they were added.
+  const std::vector<std::shared_ptr<Coupling>>& couplings() const noexcept { return couplings_; }
 
   /// Adds a sequence's primitives behind the last one. Its start delay is ignored.
   /// @throws Error  its coordinates or reference orientation differ
@@ -100,6 +114,8 @@ class Sequencer {
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
   /// Time of the motion since what runs now began [s], from which the times of its switch and its wishes count.
   double own_time() const noexcept { return own_time_; }
+  /// [s] since construction in the sequence's own time, which is what couplings are told; `time` while the rate is 1 throughout.
+  double motion_time() const noexcept { return entered_ + own_time_; }
   double rate() const noexcept { return scale_.rate(); }  // of the sequence's time to real time
   /// Goal of what runs now, or runs first.
   Eigen::Map<const Eigen::VectorXd> goal() const noexcept { return first_or_now().goal(); }
@@ -152,6 +168,9 @@ class Sequencer {
   bool near_goal() const noexcept;
   void switch_over() noexcept;
   void join_to(Execution& next, double phase, int primitive) noexcept;
+  void couple(std::vector<std::shared_ptr<Coupling>> all);
+  void couple(Item& item) const;
+  void take_along(Execution& next) const noexcept;
 
   JoinSettings join_;
   Sample start_;
@@ -175,6 +194,8 @@ class Sequencer {
   bool finished_ = false;
   Price nothing_runs_;  // of a wish that cannot be
   bool settling_ = false;
+  std::vector<std::shared_ptr<Coupling>> couplings_;
+  std::shared_ptr<const Coupling> coupling_;  // their sum; null without any
 };
 
 }  // namespace seam
