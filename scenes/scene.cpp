@@ -54,6 +54,7 @@ void read_steps(const YamlEntry& entry, Scene& scene) {
   });
   scene.sequence = std::move(file.sequence);
   scene.primitive_names = std::move(file.primitives);
+  scene.couplings = std::move(file.couplings);
 }
 
 // Where the first primitive's demonstration began.
@@ -120,6 +121,7 @@ void hasten(double factor, Scene& scene) {
     const auto when = step.until.when;
     if (when == Switch::When::after || when == Switch::When::before_end) step.until.value /= factor;
   });
+  for (ObstacleSettings& coupling : scene.couplings) coupling = coupling.at_speed(factor);
   for (Event& event : scene.events) {
     event.at /= factor;
     event.over /= factor;

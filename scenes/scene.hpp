@@ -11,6 +11,7 @@
 #include "scenes/grains.hpp"
 #include "scenes/liquid.hpp"
 #include <seam/controller.hpp>
+#include <seam/obstacles.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
 
@@ -54,6 +55,7 @@ struct Scene {
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
+  std::vector<ObstacleSettings> couplings;   // what the sequence keeps away from
   ControlSettings control;
   ActuatorSettings actuator;
   SensorSettings sensor;
