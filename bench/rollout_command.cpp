@@ -45,6 +45,7 @@ void roll_out(const Options& options) {
   const SequenceFile file =
       read_sequence(own_or_given(options.sequence), with_own_folders(options.allowed));
   Sequencer sequencer(file.sequence, method, file.start_state());
+  add_obstacles(file.couplings, sequencer);
   Recording recording;
   try {
     recording = rollout(sequencer, options.settings);

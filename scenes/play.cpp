@@ -130,6 +130,7 @@ Recording play_at(const Scene& scene, Join method, double dt, std::size_t place,
   start.head(scene.start.size()) = scene.start;
   robot.reset(start, Eigen::VectorXd::Zero(robot.dof()));
   Controller controller(robot, scene.sequence_at(place), method, scene.controller());
+  add_obstacles(scene.couplings, controller.sequencer());
   Plugin plugin(*world);
   plugin.add(controller);
 

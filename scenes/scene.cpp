@@ -58,6 +58,7 @@ void read_steps(const YamlEntry& entry, Scene& scene) {
       at_key(entry.at("steps"),
              [&] { reference(scene, step.primitive)->require_reachable_step(step); });
   scene.primitive_names = std::move(file.primitives);
+  scene.couplings = std::move(file.couplings);
 }
 
 // Where the first primitive's demonstration began.
@@ -131,6 +132,7 @@ void hasten(double factor, Scene& scene) {
       wish.acceleration *= factor * factor;
     }
   });
+  for (ObstacleSettings& coupling : scene.couplings) coupling = coupling.at_speed(factor);
   for (Event& event : scene.events) {
     event.at /= factor;
     event.when /= factor;

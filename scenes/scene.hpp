@@ -14,6 +14,7 @@
 #include "scenes/liquid.hpp"
 #include "scenes/obstacles.hpp"
 #include <seam/controller.hpp>
+#include <seam/obstacles.hpp>
 #include <seam/robot_model.hpp>
 #include <seam/sequence.hpp>
 
@@ -60,6 +61,7 @@ struct Scene {
   std::optional<ToolSettings> tool;  // in task space
   Sequence sequence;
   std::vector<std::string> primitive_names;  // one per step of the sequence
+  std::vector<ObstacleSettings> couplings;   // what the sequence keeps away from
   ControlSettings control;
   ActuatorSettings actuator;
   SensorSettings sensor;

@@ -7,6 +7,7 @@
 #include <seam/orientation.hpp>
 #include <seam/primitive_file.hpp>
 #include <seam/sequence_file.hpp>
+#include <seam/sequencer.hpp>
 
 namespace seam {
 namespace {
@@ -606,6 +607,151 @@ TEST_F(ReferenceOfASequence, ComesBackOnce) {
   expect_same_bits(read_sequence(folder_.path("again.yaml")), file);
   const std::string text = test::read_file(folder_.path("again.yaml"));
   EXPECT_EQ(text.find("reference: "), text.rfind("reference: "));
+}
+
+// One of each shape, with and without changes, at any numbers.
+std::vector<ObstacleSettings> any_couplings(std::mt19937_64& random) {
+  const auto number = [&] { return std::uniform_real_distribution<double>(0.1, 0.4)(random); };
+  const auto point = [&] { return Eigen::Vector3d(number(), -number(), number()); };
+  std::vector<ObstacleSettings> all(4);
+  for (ObstacleSettings& one : all) one.at = point();
+  all[0].shape = Steering{number() * 1e3, number(), number()};
+  all[1].shape = Ball{number(), number(), number()};
+  all[2].shape = Box{point().cwiseAbs(), any_orientation(random), number(), number()};
+  all[1].appears = Fading{number(), number()};
+  all[1].vanishes = Fading{1.0 + number(), number()};
+  all[2].moves = Moving{point(), -number(), number()};
+  return all;
+}
+
+void expect_same_bits(const ObstacleSettings& a, const ObstacleSettings& b) {
+  const auto numbers = [](const ObstacleSettings& one) {
+    std::vector<double> all(one.at.begin(), one.at.end());
+    const auto add = [&](std::initializer_list<double> more) { all.insert(all.end(), more); };
+    if (const auto* s = std::get_if<Steering>(&one.shape))
+      add({1.0, s->strength, s->sharpness, s->reach});
+    if (const auto* s = std::get_if<Ball>(&one.shape)) add({2.0, s->radius, s->strength, s->reach});
+    if (const auto* s = std::get_if<Box>(&one.shape)) {
+      add({3.0, s->size.x(), s->size.y(), s->size.z(), s->strength, s->reach});
+      all.insert(all.end(), s->orientation.coeffs().begin(), s->orientation.coeffs().end());
+    }
+    if (one.appears) add({4.0, one.appears->from, one.appears->over});
+    if (one.vanishes) add({5.0, one.vanishes->from, one.vanishes->over});
+    if (one.moves)
+      add({6.0, one.moves->to.x(), one.moves->to.y(), one.moves->to.z(), one.moves->from,
+           one.moves->over});
+    return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(all.data(), Eigen::Index(all.size())));
+  };
+  EXPECT_TRUE(same_bits(numbers(a), numbers(b)));
+}
+
+TEST(SequenceFile, BringsCouplingsBackBitForBit) {
+  const TempFolder folder;
+  std::mt19937_64 random(seed + 8);
+  for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE("seed " + std::to_string(seed + 8) + ", case " + std::to_string(i));
+    SequenceFile file;
+    Primitive reach = test::random_primitive(random, 3);
+    reach.coordinates = {"x", "y", "z"};
+    file.sequence.then(reach);
+    file.primitives = {"reach"};
+    file.couplings = any_couplings(random);
+    write_sequence(folder.path("all.yaml"), file);
+    const SequenceFile back = read_sequence(folder.path("all.yaml"));
+    ASSERT_EQ(back.couplings.size(), file.couplings.size());
+    for (std::size_t k = 0; k < file.couplings.size(); ++k)
+      expect_same_bits(back.couplings[k], file.couplings[k]);
+    file.couplings[1].shape = Ball{-1.0, 1.0, 1.0};
+    EXPECT_EQ(test::refusal([&] { write_sequence(folder.path("bad.yaml"), file); }),
+              "obstacle: radius -1 m, must be > 0");
+  }
+}
+
+const std::string coupled_sequence = good_sequence + R"(couplings:
+  - steer: {at: [0.4, 0, 0.3], sharpness: 5}
+  - ball: {at: [0.3, 0.1, 0.2], radius: 0.05, strength: 150, reach: 0.2}
+    appears: {from: 0.5}
+    vanishes: {from: 2, over: 0.4}
+  - box: {at: [0.5, 0, 0.1], size: [0.2, 0.1, 0.3], orientation: [0, 0, 1, 0]}
+    moves: {to: [0.5, 0.3, 0.1], from: 1, over: 1.5}
+)";
+
+TEST(SequenceFile, ReadsCouplingsAsTheyAreDocumented) {
+  const TempFolder folder;
+  write_parts(folder);
+  const SequenceFile file = read_sequence(folder.write("coupled.yaml", coupled_sequence));
+  ASSERT_EQ(file.couplings.size(), 3u);
+  const auto& steering = std::get<Steering>(file.couplings[0].shape);
+  EXPECT_EQ(file.couplings[0].at, Eigen::Vector3d(0.4, 0.0, 0.3));
+  EXPECT_EQ(steering.sharpness, 5.0);
+  EXPECT_EQ(steering.strength, Steering().strength);
+  const auto& ball = std::get<Ball>(file.couplings[1].shape);
+  EXPECT_EQ(Eigen::Vector3d(ball.radius, ball.strength, ball.reach),
+            Eigen::Vector3d(0.05, 150.0, 0.2));
+  EXPECT_EQ(file.couplings[1].appears->over, Fading().over);
+  EXPECT_EQ(file.couplings[1].vanishes->over, 0.4);
+  const auto& box = std::get<Box>(file.couplings[2].shape);
+  EXPECT_EQ(box.size, Eigen::Vector3d(0.2, 0.1, 0.3));
+  EXPECT_EQ(box.orientation.z(), 1.0);
+  EXPECT_EQ(file.couplings[2].moves->to.y(), 0.3);
+  EXPECT_FALSE(file.couplings[2].appears);
+  Sequencer sequencer(file.sequence, Join::dmp3, file.start_state());
+  EXPECT_EQ(add_obstacles(file.couplings, sequencer).size(), 3u);
+  EXPECT_EQ(sequencer.couplings().size(), 3u);
+}
+
+class CouplingsRefuse : public testing::TestWithParam<BadFile> {};
+
+TEST_P(CouplingsRefuse, WithFileLineAndKey) {
+  const TempFolder folder;
+  write_parts(folder);
+  test::expect_refused(GetParam(), coupled_sequence, folder,
+                       [](const std::string& path) { read_sequence(path); });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , CouplingsRefuse,
+    testing::Values(
+        BadFile{"NoShape", "- steer:", "- dodge:", ":16: key \"dodge\": not known here"},
+        BadFile{"TwoShapes", "    appears", "    steer: {at: [1, 2, 3]}\n    appears",
+                ":17: key \"couplings\": must have one of the keys steer, ball, box"},
+        BadFile{"TwoNumbers", "[0.4, 0, 0.3]", "[0.4, 0]",
+                ":16: key \"at\": 2 numbers, must be 3 (one per axis)"},
+        BadFile{"NoPlace", "at: [0.3, 0.1, 0.2], ", "", ":17: key \"ball\": needs the key"},
+        BadFile{"NoRadius", "radius: 0.05, ", "", ":17: key \"ball\": needs the key"},
+        BadFile{"RadiusNegative", "radius: 0.05", "radius: -1", ":17: key \"radius\": -1, must be"},
+        BadFile{"StrengthNegative", "strength: 150", "strength: -1", ":17: key \"strength\": -1"},
+        BadFile{"NoReach", "reach: 0.2", "reach: 0",
+                ":17: key \"couplings\": obstacle: reach 0 m, must be > 0"},
+        BadFile{"FlatBox", "[0.2, 0.1, 0.3]", "[0.2, 0, 0.3]",
+                ":20: key \"couplings\": obstacle: size 0 m, must be > 0"},
+        BadFile{"NoOrientation", "[0, 0, 1, 0]", "[0, 0, 2, 0]", ":20: key \"orientation\": "},
+        BadFile{"ExtraKey", "sharpness", "sharp", ":16: key \"sharp\": not known here"},
+        BadFile{"ExtraChange", "appears", "appear", ":18: key \"appear\": not known here"},
+        BadFile{"NoTime", "appears: {from: 0.5}", "appears: {over: 0.5}",
+                ":18: key \"appears\": needs the key"},
+        BadFile{"AtOnce", "over: 0.4", "over: 0", ":19: key \"over\": 0, must be"},
+        BadFile{"TooFast", "over: 0.4", "over: 1e-9",
+                ":17: key \"couplings\": obstacle: vanishes: must be finite"},
+        BadFile{"VanishesFirst", "vanishes: {from: 2", "vanishes: {from: 0.1",
+                ":17: key \"couplings\": obstacle: vanishes at 0.1 s, must be after"},
+        BadFile{"MoveWithoutEnd", ", over: 1.5", "", ":21: key \"moves\": needs the key"}),
+    test::by_name);
+
+TEST(SequenceFile, RefusesCouplingsOfJoints) {
+  const TempFolder folder;
+  write_parts(folder);
+  std::string joints = replaced(good_primitive, "\"x\", \"y\"", "\"x\", \"elbow\"");
+  folder.write("parts/reach.yaml", joints);
+  const std::string path = folder.write(
+      "joints.yaml",
+      "format: seam-sequence 1\nprimitives:\n  reach: {file: parts/reach.yaml}\nsteps:\n  - {play: "
+      "reach}\ncouplings:\n  - ball: {at: [0, 0, 0], radius: 1}\n");
+  EXPECT_EQ(
+      test::refusal([&] { read_sequence(path); }),
+      path +
+          ":7: key \"couplings\": obstacle: there is no coordinate y among x, elbow, must be a "
+          "tool's x y z, or x y");
 }
 
 class SequenceFileRefuses : public testing::TestWithParam<BadFile> {};

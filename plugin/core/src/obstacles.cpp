@@ -3,8 +3,8 @@
 #include "shown.hpp"
 #include <seam/error.hpp>
 #include <seam/obstacles.hpp>
-#include <seam/orientation.hpp>
 #include <seam/quintic.hpp>
+#include <seam/sequencer.hpp>
 
 namespace seam {
 
@@ -127,6 +127,20 @@ Eigen::Index require_index(const std::vector<std::string>& coordinates, const ch
 
 }  // namespace
 
+ObstacleSettings ObstacleSettings::at_speed(double factor) const {
+  ObstacleSettings faster = *this;
+  if (auto* steering = std::get_if<Steering>(&faster.shape)) steering->strength *= factor;
+  if (auto* ball = std::get_if<Ball>(&faster.shape)) ball->strength *= factor * factor;
+  if (auto* box = std::get_if<Box>(&faster.shape)) box->strength *= factor * factor;
+  const auto hasten = [factor](auto& change) {
+    if (change) change->from /= factor, change->over /= factor;
+  };
+  hasten(faster.appears);
+  hasten(faster.vanishes);
+  hasten(faster.moves);
+  return faster;
+}
+
 Obstacle::Obstacle(const std::vector<std::string>& coordinates, const ObstacleSettings& settings)
     : shape_(settings.shape),
       position_(settings.at),
@@ -173,6 +187,15 @@ void Obstacle::add(const Eigen::VectorXd& y, const Eigen::VectorXd& yd, double t
   ydd(x_) += c.x();
   ydd(y_) += c.y();
   if (!plane) ydd(z_) += c.z();
+}
+
+std::vector<std::shared_ptr<Obstacle>> add_obstacles(const std::vector<ObstacleSettings>& all,
+                                                     Sequencer& sequencer) {
+  std::vector<std::shared_ptr<Obstacle>> obstacles;
+  for (const ObstacleSettings& one : all)
+    obstacles.push_back(std::make_shared<Obstacle>(sequencer.coordinates(), one));
+  for (const auto& obstacle : obstacles) sequencer.add_coupling(obstacle);
+  return obstacles;
 }
 
 }  // namespace seam

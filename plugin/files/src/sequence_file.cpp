@@ -4,6 +4,7 @@
 #include <map>
 
 #include "learn_entry.hpp"
+#include "obstacle_entry.hpp"
 #include "primitive_entry.hpp"
 #include "sequence_entry.hpp"
 #include "yaml_text.hpp"
@@ -338,7 +339,7 @@ Sample SequenceFile::start_state() const {
 
 SequenceFile read_sequence(const YamlEntry& entry, const Check& check) {
   if (entry.find("format")) entry.require_format(format_name, format_version);
-  entry.only({"format", "start", "start_after", "reference", "primitives", "steps"});
+  entry.only({"format", "start", "start_after", "reference", "primitives", "steps", "couplings"});
   SequenceFile file;
   const auto reference = entry.find("reference");
   if (const auto delay = entry.find("start_after"))
@@ -350,6 +351,9 @@ SequenceFile read_sequence(const YamlEntry& entry, const Check& check) {
     reference->fail("the primitives have no coordinates rx, ry and rz");
   if (const auto start = entry.find("start"))
     file.start = read_start(*start, file.sequence.steps().front().primitive);
+  if (const auto couplings = entry.find("couplings"))
+    for (const YamlEntry& one : couplings->items())
+      file.couplings.push_back(read_obstacle(one, file.sequence.coordinates()));
   return file;
 }
 
@@ -366,7 +370,8 @@ void write_sequence(const std::string& path, const SequenceFile& file) {
   if (file.start) text += start_text(*file.start, names);
   text += "start_after: " + yaml_number(file.sequence.start_delay()) + "  # [s]\n";
   text += yaml_reference(file.sequence.steps().front().primitive.reference_orientation);
-  write_whole(path, text + primitives_text(file) + steps_text(file));
+  write_whole(path, text + primitives_text(file) + steps_text(file) +
+                        couplings_text(file.couplings, names));
 }
 
 }  // namespace seam

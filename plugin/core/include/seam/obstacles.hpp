@@ -15,6 +15,8 @@
 
 namespace SEAM_API seam {
 
+class Sequencer;
+
 /// A point that a moving tool steers round (Hoffmann, Park, Pastor and Schaal 2009), windowed:
 ///     C = γ·Rẏ·φ·exp(−βφ)·W(|o − y|)
 /// φ is the angle between ẏ and the way o − y to the point, R a quarter turn about (o − y) × ẏ: away from the point, at right
@@ -72,6 +74,10 @@ struct ObstacleSettings {
   std::optional<Fading> appears;            // there from the beginning without
   std::optional<Fading> vanishes;           // stays without
   std::optional<Moving> moves;              // stands without
+
+  /// The same for a motion that is faster by a factor, which it leaves on its path: times are divided by it, γ is
+  /// multiplied by it, s by its square.
+  ObstacleSettings at_speed(double factor) const;
 };
 
 /// An obstacle to a tool with the coordinates x y z, or x y in a plane, where z is that of the obstacle. It can appear, move and vanish while the
@@ -115,5 +121,11 @@ class Obstacle : public Coupling {
   Glide<double> presence_;
   Eigen::Index x_, y_, z_;  // among the coordinates; z −1 in a plane
 };
+
+/// Makes obstacles of what a file says and adds them to what plays it, best before the first step.
+/// @return  the obstacles in the same order
+/// @throws Error  see Obstacle
+std::vector<std::shared_ptr<Obstacle>> add_obstacles(const std::vector<ObstacleSettings>& all,
+                                                     Sequencer& sequencer);
 
 }  // namespace seam

@@ -6,15 +6,17 @@
 
 #include <seam/export.hpp>
 #include <seam/join.hpp>
+#include <seam/obstacles.hpp>
 #include <seam/sequence.hpp>
 
 namespace SEAM_API seam {
 
 /// A sequence and what a file says beside it.
 struct SequenceFile {
-  Sequence sequence;                    // ready to be played
-  std::vector<std::string> primitives;  // names, one per step
-  std::optional<Sample> start;          // the state to start from, where it is given
+  Sequence sequence;                        // ready to be played
+  std::vector<std::string> primitives;      // names, one per step
+  std::optional<Sample> start;              // the state to start from, where it is given
+  std::vector<ObstacleSettings> couplings;  // what the motion keeps away from: see add_obstacles
 
   /// The state to start from: `start`, or at rest where the first primitive's demonstration began.
   Sample start_state() const;
@@ -41,6 +43,16 @@ struct SequenceFile {
 ///       - {play: wipe, enter: least_correction, until: on_call}  # or beginning, {phase: 1.2}
 ///       - {play: away}                  # without until: to its end, or for one cycle
 ///       - {play: reach, leave: {x: 2}, pass: [{position: {x: 0.2}, at: 0.4}], arrive: yes}   # wishes, see below
+///     couplings:                        # optional, see Obstacle: what a tool keeps away from
+///       - steer: {at: [0.4, 0, 0.3], strength: 1000, sharpness: 3.2, reach: 0.4}
+///       - ball: {at: [0.3, 0.1, 0.2], radius: 0.05, strength: 200, reach: 0.1}
+///         appears: {from: 0.5, over: 0.3}           # [s]
+///         vanishes: {from: 2, over: 0.3}
+///       - box: {at: [0.5, 0, 0.1], size: [0.2, 0.1, 0.3], orientation: [0, 0, 0, 1], strength: 200, reach: 0.1}
+///         moves: {to: [0.5, 0.3, 0.1], from: 1, over: 1.5}
+///
+/// Of an obstacle only at, radius and size must be there, and `from`; of a move all three. Times are the motion's own, from its
+/// beginning, start_after included.
 ///
 /// Wishes (see Wish and Sequence::wish), in the order in which they count: `pass`, a list; `hit`, one, which sets `until` as well;
 /// `arrive`. Each is a map of what is wished (position, velocity, acceleration: values of some coordinates; orientation:
