@@ -52,7 +52,7 @@ class Gates final : public Object {
         robot_(robot),
         tool_(scene.tool_frame()),
         passages_(gates_.begin(), gates_.end()) {
-    if (scene.tool) X_tool_link_ = scene.tool->X_link_tool.inverse();
+    if (scene.tool) to_link_ = scene.tool->X_link_tool.inverse().translation();
   }
 
   void pre_tick(Eigen::Index, double) override {
@@ -62,15 +62,14 @@ class Gates final : public Object {
   void appear(Replay& replay) override {
     part_ = replay.parts.size();
     for (const Gate& gate : gates_) replay.parts.push_back(frame_of(gate));
-    replay.parts.push_back({"rod", {}, {}});
-    const Eigen::Vector3d to_link = X_tool_link_.translation();
-    if (to_link.norm() > bar)
-      replay.parts.back().visuals.push_back(coloured(rod(to_link, 0.4 * bar), 0.25, 0.27, 0.30));
+    if (!has_rod()) return;
+    const Geometry solid = coloured(rod(to_link_, 0.4 * bar), 0.25, 0.27, 0.30);
+    replay.parts.push_back({"rod", {solid}, {}});
   }
   void film(Eigen::Index frame, Replay& replay) const override {
     for (std::size_t i = 0; i < gates_.size(); ++i)
       replay.set_pose(frame, part_ + i, gates_[i].X_world_gate);
-    replay.set_pose(frame, part_ + gates_.size(), robot_.X_world_frame(tool_));
+    if (has_rod()) replay.set_pose(frame, part_ + gates_.size(), robot_.X_world_frame(tool_));
   }
   void finish(Recording& recording) const override {
     double least = std::numeric_limits<double>::infinity();
@@ -79,10 +78,12 @@ class Gates final : public Object {
   }
 
  private:
+  bool has_rod() const { return to_link_.norm() > bar; }
+
   const std::vector<Gate>& gates_;
   const Robot& robot_;
   Frame tool_;
-  Eigen::Isometry3d X_tool_link_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d to_link_ = Eigen::Vector3d::Zero();  // [m] in the tool's frame
   std::vector<Passage> passages_;
   std::size_t part_ = 0;
 };

@@ -22,21 +22,27 @@ constexpr std::size_t most_obstacles = 100;
 constexpr double farthest = 10.0;  // [m] at which a distance is still measured
 constexpr double nearest = 1e-3;   // [m] within which it always is
 
-Geometry read_shape(const YamlEntry& entry) {
-  const auto edges = entry.find("box");
-  const auto radius = entry.find("ball");
-  if (edges.has_value() == radius.has_value()) entry.fail("must have one of box, ball");
-  if (radius) return sphere(radius->positive());
-  const Eigen::Vector3d size = edges->numbers(3, "edge");
-  if (!(size.minCoeff() > 0.0)) edges->fail("must be > 0");
-  return box(Eigen::Isometry3d::Identity(), size);
+Geometry read_box(const YamlEntry& entry) {
+  entry.only({"at", "size"});
+  const YamlEntry size = entry.at("size");
+  const Eigen::Vector3d edges = size.numbers(3, "edge");
+  if (!(edges.minCoeff() > 0.0)) size.fail("must be > 0");
+  return box(Eigen::Isometry3d::Identity(), edges);
+}
+
+Geometry read_ball(const YamlEntry& entry) {
+  entry.only({"at", "radius"});
+  return sphere(entry.at("radius").positive());
 }
 
 SolidObstacle read_obstacle(const YamlEntry& entry) {
-  entry.only({"box", "ball", "at", "moves"});
+  entry.only({"box", "ball", "moves"});
+  const auto as_box = entry.find("box");
+  const auto as_ball = entry.find("ball");
+  if (as_box.has_value() == as_ball.has_value()) entry.fail("must have one of box, ball");
   SolidObstacle obstacle;
-  obstacle.shape = coloured(read_shape(entry), 0.72, 0.24, 0.18);
-  obstacle.at = entry.at("at").numbers(3, "direction");
+  obstacle.shape = coloured(as_box ? read_box(*as_box) : read_ball(*as_ball), 0.72, 0.24, 0.18);
+  obstacle.at = (as_box ? *as_box : *as_ball).at("at").numbers(3, "direction");
   if (const auto moves = entry.find("moves")) {
     moves->only({"to", "from", "over"});
     obstacle.way = moves->at("to").numbers(3, "direction") - obstacle.at;

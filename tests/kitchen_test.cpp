@@ -62,7 +62,7 @@ TEST_P(KitchenScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, KitchenScene, testing::Values("carrying", "wiping", "through"));
+INSTANTIATE_TEST_SUITE_P(, KitchenScene, testing::Values("carrying", "wiping", "through", "obstacle"));
 
 // Two changes a tick apart from a camera's 30 a second leave jumps of dmp2 that vanish by chance: the worst counts.
 TEST(MovingGoal, TorqueStepsWithDmp2AtTheGoalsAndNotWithTheOthers) {
@@ -125,6 +125,20 @@ TEST(Through, ClearsTheGatesWithItsWishesAlone) {
         << to_string(method);
     EXPECT_LT(outcome(play(without, method, through.dt), "clearance_m"), -0.01)
         << to_string(method);
+  }
+}
+
+TEST(Obstacle, IsTouchedWithoutTheCouplingAlone) {
+  const Scene round = own_scene("obstacle");
+  const Scene through = own_scene("obstacle", {"sequence.couplings.0.box.strength=0"});
+  for (const Join method : all_joins) {
+    SCOPED_TRACE(to_string(method));
+    const Recording kept_off = play(round, method, round.dt);
+    EXPECT_EQ(outcome(kept_off, "touched_share"), 0.0);
+    EXPECT_GT(outcome(kept_off, "obstacle_distance_m"), 0.005);
+    const Recording touching = play(through, method, round.dt);
+    EXPECT_GT(outcome(touching, "touched_share"), 0.01);
+    EXPECT_LT(outcome(touching, "obstacle_distance_m"), -0.01);
   }
 }
 

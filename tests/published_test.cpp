@@ -45,7 +45,7 @@ TEST_P(Published, PlaysToTheEndAndIsTracked) {
 
 INSTANTIATE_TEST_SUITE_P(, Published,
                          testing::Values("line", "wiping", "carrying", "catching", "through",
-                                         "pouring"),
+                                         "obstacle", "pouring"),
                          [](const auto& of) { return std::string(of.param); });
 
 TEST(PublishedCarrying, SpillsWithDmp2AndNotWithTheOthers) {

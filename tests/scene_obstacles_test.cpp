@@ -1,9 +1,8 @@
-#include "scenes/obstacles.hpp"
-
 #include <cstring>
 
 #include <gmock/gmock.h>
 
+#include "scenes/obstacles.hpp"
 #include "scenes/play.hpp"
 #include "tests/own_scene.hpp"
 #include "tests/refusals.hpp"
@@ -99,14 +98,14 @@ TEST(Obstacles, AreAsFarFromTheArmAsTheyAre) {
     return least;
   };
   EXPECT_GT(
-      check("{ball: 0.1, at: [0.3, 0.3, 0.4]}",
+      check("{ball: {at: [0.3, 0.3, 0.4], radius: 0.1}}",
             [](const Vector3d& p, double) { return (p - Vector3d(0.3, 0.3, 0.4)).norm() - 0.1; }),
       0.1);
   EXPECT_LT(
-      check("{ball: 0.1, at: [0.3, 0, 0.4]}",
+      check("{ball: {at: [0.3, 0, 0.4], radius: 0.1}}",
             [](const Vector3d& p, double) { return (p - Vector3d(0.3, 0.0, 0.4)).norm() - 0.1; }),
       -0.04);
-  check("{box: [0.1, 0.2, 0.3], at: [0.45, 0, 0.4]}", [](const Vector3d& p, double) {
+  check("{box: {at: [0.45, 0, 0.4], size: [0.1, 0.2, 0.3]}}", [](const Vector3d& p, double) {
     return distance_to_box(p - Vector3d(0.45, 0.0, 0.4), {0.05, 0.1, 0.15});
   });
   SolidObstacle moving;
@@ -118,17 +117,18 @@ TEST(Obstacles, AreAsFarFromTheArmAsTheyAre) {
     return distance_to_box(p - moving.position(time), Vector3d::Constant(0.03));
   };
   const std::string box =
-      "{box: [0.06, 0.06, 0.06], at: [0.6, 0, 0.4], moves: {to: [0.3, 0, 0.4], from: 0.2, over: "
+      "{box: {at: [0.6, 0, 0.4], size: [0.06, 0.06, 0.06]}, moves: {to: [0.3, 0, 0.4], from: 0.2, "
+      "over: "
       "0.7}}";
   check(box, to_moving);
-  check(box + ", {ball: 0.1, at: [0, 0.4, 0.4]}", [&](const Vector3d& p, double time) {
+  check(box + ", {ball: {at: [0, 0.4, 0.4], radius: 0.1}}", [&](const Vector3d& p, double time) {
     return std::min(to_moving(p, time), (p - Vector3d(0.0, 0.4, 0.4)).norm() - 0.1);
   });
 }
 
 TEST(Obstacles, DoNotPush) {
   const Swing swing;
-  const Scene blocked = swing.read("{ball: 0.1, at: [0.3, 0, 0.3]}");
+  const Scene blocked = swing.read("{ball: {at: [0.3, 0, 0.3], radius: 0.1}}");
   const Scene free = Scene::read(swing.path);
   const Recording a = play(blocked, Join::dmp3, 1e-3), b = play(free, Join::dmp3, 1e-3);
   EXPECT_GT(outcome(a, "touched_share"), 0.1);
@@ -141,9 +141,8 @@ TEST(Obstacles, DoNotPush) {
 TEST(Obstacles, AreSeenWhereTheyAre) {
   const Swing swing;
   const Scene scene = swing.read(
-      "{ball: 0.1, at: [1, 0, 0], moves: {to: [2, 0, 0], from: 0, over: 1}}, {box: [1, 2, 3], at: "
-      "[0, 9, "
-      "0]}");
+      "{ball: {at: [1, 0, 0], radius: 0.1}, moves: {to: [2, 0, 0], from: 0, over: 1}}, "
+      "{box: {at: [0, 9, 0], size: [1, 2, 3]}}");
   Replay replay;
   play(scene, Join::dmp3, scene.dt, &replay);
   const std::size_t last = replay.parts.size() - 1;
@@ -155,7 +154,7 @@ TEST(Obstacles, AreSeenWhereTheyAre) {
 TEST(Obstacles, MoveFasterInAFasterScene) {
   const Swing swing;
   const std::string ball =
-      "obstacles=[{ball: 0.1, at: [1, 0, 0], moves: {to: [2, 0, 0], from: 1, over: 3}}]";
+      "obstacles=[{ball: {at: [1, 0, 0], radius: 0.1}, moves: {to: [2, 0, 0], from: 1, over: 3}}]";
   const Scene fast = Scene::read(swing.path, {ball, "speed=2"});
   EXPECT_EQ(fast.obstacles[0].leaves, 0.5);
   EXPECT_EQ(fast.obstacles[0].over, 1.5);
@@ -164,23 +163,25 @@ TEST(Obstacles, MoveFasterInAFasterScene) {
 class ObstaclesRefuse : public testing::TestWithParam<BadFile> {};
 
 TEST_P(ObstaclesRefuse, WithFileLineAndKey) {
-  test::expect_refused(GetParam(),
-                       test::scene_text("line") +
-                           "obstacles:\n  - {box: [1, 1, 1], at: [5, 0, 0], moves: {to: [6, 0, 0], "
-                           "from: 0.5, over: 1}}\n",
-                       TempFolder(), [](const std::string& path) { Scene::read(path); });
+  test::expect_refused(
+      GetParam(),
+      test::scene_text("line") +
+          "obstacles:\n  - {box: {at: [5, 0, 0], size: [1, 1, 1]}, moves: {to: [6, 0, 0], "
+          "from: 0.5, over: 1}}\n",
+      TempFolder(), [](const std::string& path) { Scene::read(path); });
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , ObstaclesRefuse,
     testing::Values(
-        BadFile{"NoShape", "box: [1, 1, 1], ", "",
+        BadFile{"NoShape", "box: {at: [5, 0, 0], size: [1, 1, 1]}, ", "",
                 ":23: key \"obstacles\": must have one of box, ball"},
-        BadFile{"TwoShapes", "box: [1, 1, 1]", "box: [1, 1, 1], ball: 1",
+        BadFile{"TwoShapes", "moves:", "ball: {at: [5, 0, 0], radius: 1}, moves:",
                 ":23: key \"obstacles\": must have one of box, ball"},
-        BadFile{"FlatBox", "box: [1, 1, 1]", "box: [1, 1, 0]", ":23: key \"box\": must be > 0"},
-        BadFile{"BallOfNothing", "box: [1, 1, 1]", "ball: 0", ":23: key \"ball\": 0, must be > 0"},
-        BadFile{"NoPlace", "at: [5, 0, 0], ", "", ":23: key \"obstacles\": needs the key \"at\""},
+        BadFile{"FlatBox", "size: [1, 1, 1]", "size: [1, 1, 0]", ":23: key \"size\": must be > 0"},
+        BadFile{"BallOfNothing", "box: {at: [5, 0, 0], size: [1, 1, 1]}",
+                "ball: {at: [5, 0, 0], radius: 0}", ":23: key \"radius\": 0, must be > 0"},
+        BadFile{"NoPlace", "at: [5, 0, 0], ", "", ":23: key \"box\": needs the key \"at\""},
         BadFile{"NoTime", ", over: 1", "", ":23: key \"moves\": needs the key \"over\""},
         BadFile{"AtOnce", "over: 1", "over: 0", ":23: key \"over\": 0, must be > 0"},
         BadFile{"NoWay", "to: [6, 0, 0], ", "", ":23: key \"moves\": needs the key \"to\""},

@@ -48,8 +48,8 @@ function follow(t,   s, p) {
   }
   if (motion == "wipe_approach") move(0.42, -0.22, 0.22, 0.58, -0.01, 0.02, 0.02, -0.02, s)
   if (motion == "wipe_away") move(0.57, 0.06, 0.03, 0.44, -0.20, 0.24, 0.02, 0.02, s)
-  if (motion == "catch") move(0.48, -0.40, 0.45, 0.64, 0.15, 0.60, 0.23, -0.02, s)
-  if (motion == "follow") move(0.59, -0.04, 0.74, 0.54, 0.30, 0.50, 0.01, 0.01, s)
+  if (motion == "catch") move(0.48, -0.40, 0.45, 0.64, 0.15, 0.60, 0.21, -0.02, s)
+  if (motion == "follow") move(0.61, -0.20, 0.85, 0.575, 0.23, 0.53, 0, 0, 0.45 + 0.55 * s)  # moving when it begins
   if (motion == "aim") move(0.48, -0.30, 0.30, 0.58, -0.05, 0.37, 0.02, 0.02, s)
   if (motion == "thread") move(0.58, -0.05, 0.37, 0.60, 0.03, 0.10, 0, 0, s)
   if (motion == "wipe") {
@@ -74,7 +74,7 @@ function row(t,   c) {
 
 BEGIN {
   pi = atan2(0, -1)
-  split("reach 1.2 11 pour 2.2 22 wipe 7.2 33 carry_lift 1.0 44 carry_place 1.0 55 wipe_approach 1.0 66 wipe_away 1.1 77 catch 1.4 88 follow 1.0 99 aim 1.0 111 thread 1.0 122", list, " ")
+  split("reach 1.2 11 pour 2.2 22 wipe 7.2 33 carry_lift 1.0 44 carry_place 1.0 55 wipe_approach 1.0 66 wipe_away 1.1 77 catch 1.4 88 follow 0.7 99 aim 1.0 111 thread 1.0 122", list, " ")
   for (i = 1; i in list; i += 3)
     if (list[i] == motion) { duration = list[i + 1]; seed = list[i + 2] }
   turns = motion == "reach" || motion == "pour"

@@ -54,6 +54,16 @@ def test_events_happen_to_a_sequencer():
     np.testing.assert_array_equal(sequencer.goal[np.isfinite(wanted)], wanted[np.isfinite(wanted)])
 
 
+def test_a_ball_that_is_seen_moves_the_hit():
+    scene = seam.Scene.read("catching")
+    assert len(scene.events) > 3
+    for event in scene.events:
+        assert event.what == seam.Event.What.hit and event.which == 0
+        assert event.goal.shape == event.velocity.shape == (3,) and event.when > event.at
+    run = seam.play(scene)
+    assert run.outcomes["miss_m"] < 0.005
+
+
 def test_the_same_twice():
     runs = [seam.play("line", method="dmp2j", dt=4e-3) for _ in range(2)]
     np.testing.assert_array_equal(runs[0].torque, runs[1].torque)

@@ -17,14 +17,21 @@ void bind_events(py::module_& module) {
       .value("tau", Event::What::tau)
       .value("amplitude", Event::What::amplitude)
       .value("rate", Event::What::rate)
-      .value("hand_over", Event::What::hand_over);
+      .value("hand_over", Event::What::hand_over)
+      .value("pass_", Event::What::pass)
+      .value("hit", Event::What::hit);
   event
       .def_readonly("at", &Event::at,
                     "[s] since the run began; takes effect at the first tick then or later.")
       .def_readonly("what", &Event::what, "What happens.")
       .def_property_readonly(
           "goal", [](const Event& self) { return read_only(self.goal); },
-          "(D,) [rad or m]; NaN where a coordinate's goal stays.")
+          "(D,) [rad or m]; NaN where a coordinate's goal stays. Of a wish: the position.")
+      .def_property_readonly(
+          "velocity", [](const Event& self) { return read_only(self.velocity); },
+          "(D,) of a wish [rad/s or m/s]; NaN where it is free, or empty.")
+      .def_readonly("when", &Event::when, "[s] since the run began: a wish's moment.")
+      .def_readonly("which", &Event::which, "Index of the wish that is moved; -1: one more.")
       .def_readonly("value", &Event::value, "tau [s], amplitude, or rate.")
       .def_readonly("over", &Event::over, "[s] in which the rate changes.")
       .def("happen", &Event::happen, py::arg("sequencer"),
