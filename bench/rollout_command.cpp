@@ -40,6 +40,25 @@ void print_joins(const Sequencer& sequencer, const std::vector<std::string>& nam
   }
 }
 
+// What the wishes of each primitive cost, of each coordinate.
+void print_prices(const Sequencer& sequencer, const std::vector<std::string>& names) {
+  bool first = true;
+  for (int i = 0; i < sequencer.joins(); ++i) {
+    const JoinEvent& join = sequencer.join(i);
+    if (join.price.acceleration.isZero(0.0)) continue;
+    if (first)
+      fmt::print("{:>10}  {:20}  {:>20}  {:>16}  {:>20}\n", "wishes [s]", "of", "coordinate",
+                 "deviation", "acceleration [/s2]");
+    first = false;
+    for (std::size_t d = 0; d < sequencer.coordinates().size(); ++d) {
+      const auto row = static_cast<Eigen::Index>(d);
+      fmt::print("{:10.4f}  {:20}  {:>20}  {:16.3g}  {:20.3g}\n", join.time,
+                 names[static_cast<std::size_t>(join.primitive)], sequencer.coordinates()[d],
+                 join.price.deviation(row), join.price.acceleration(row));
+    }
+  }
+}
+
 void roll_out(const Options& options) {
   const Join method = join_from_name(options.method);
   const SequenceFile file =
@@ -55,6 +74,7 @@ void roll_out(const Options& options) {
   recording.write(options.out);
   fmt::print("{} with {}, steps at its joins:\n", options.sequence, options.method);
   print_joins(sequencer, file.primitives);
+  print_prices(sequencer, file.primitives);
   fmt::print("{}: {} rows every {:g} ms\n", options.out, recording.ticks(),
              options.settings.dt * 1e3);
 }

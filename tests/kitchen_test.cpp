@@ -62,7 +62,8 @@ TEST_P(KitchenScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, KitchenScene, testing::Values("carrying", "wiping", "through", "obstacle"));
+INSTANTIATE_TEST_SUITE_P(, KitchenScene,
+                         testing::Values("carrying", "wiping", "through", "obstacle"));
 
 // Two changes a tick apart from a camera's 30 a second leave jumps of dmp2 that vanish by chance: the worst counts.
 TEST(MovingGoal, TorqueStepsWithDmp2AtTheGoalsAndNotWithTheOthers) {

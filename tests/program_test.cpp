@@ -164,8 +164,8 @@ TEST(Program, PrintsTheTableOfTheReadmeAndKeepsTheBaselines) {
   const TempFolder folder;
   const std::string readme = test::read_file(std::string(SEAM_README));
   const auto begin = readme.find("<!-- table -->");
-  const Outcome outcome = run("bench carrying catching line obstacle through wiping --out " + folder.path("r") +
-                              " --check " SEAM_BASELINES);
+  const Outcome outcome = run("bench carrying catching line obstacle through wiping --out " +
+                              folder.path("r") + " --check " SEAM_BASELINES);
   ASSERT_EQ(outcome.status, 0) << outcome.output;
   const auto left = rows(test::read_file(folder.path("r/overview.md")));
   ASSERT_EQ(left.size(), 25U);

@@ -17,6 +17,7 @@ LEFT_OUT_HEADERS = {
     "conditions.hpp": "a part of Execution; numpy.linalg.lstsq does it",
     "compensated_sum.hpp": "a part of the sequencer; Python has math.fsum",
     "export.hpp": "of compiled code alone",
+    "glide.hpp": "a part of Obstacle",
     "noise.hpp": "a part of the sensor; numpy has its own",
     "posture_system.hpp": "a part of InverseKinematics",
     "precision.hpp": "of compiled code alone: the module is linked with Bullet in double",

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_seam, module) {
   bind_primitives(module);
   bind_learning(module);
   bind_recordings(module);
+  bind_couplings(module);
   bind_sequences(module);
   bind_robots(module);
   bind_dynamics(module);

@@ -8,6 +8,7 @@ namespace seam::python {
 void bind_primitives(pybind11::module_& module);
 void bind_learning(pybind11::module_& module);
 void bind_recordings(pybind11::module_& module);
+void bind_couplings(pybind11::module_& module);
 void bind_sequences(pybind11::module_& module);
 void bind_robots(pybind11::module_& module);
 void bind_dynamics(pybind11::module_& module);

@@ -1,5 +1,6 @@
 // Joins, sequences, and what plays them.
 #include "plugin/python/src/bind.hpp"
+#include "plugin/python/src/couplings.hpp"
 #include "plugin/python/src/parts.hpp"
 #include "plugin/python/src/states.hpp"
 #include <seam/execution.hpp>
@@ -239,6 +240,7 @@ void bind_files(py::module_& module) {
   file.field("sequence", &SequenceFile::sequence)
       .field("primitives", &SequenceFile::primitives)
       .field("start", &SequenceFile::start)
+      .field("couplings", &SequenceFile::couplings)
       .made_of_fields();
   file.def("start_state", [](const SequenceFile& self) { return self.start_state(); });
   def(
@@ -311,6 +313,12 @@ void bind_execution(py::module_& module) {
            "Amplitude of what runs now, a rhythmic primitive; 1 as learned. False, and no change, "
            "where nothing rhythmic runs or the value will not do.",
            py::arg("amplitude"))
+      .def(
+          "couple",
+          [](Execution& self, const py::object& coupling, double time) {
+            self.couple(coupling.is_none() ? nullptr : kept(coupling), time);
+          },
+          py::arg("coupling"), py::arg("time"))
       .property("sample", [](const Execution& self) { return Sample(self.sample()); })
       .property("state", [](Execution& self) { return Sample(self.state()); })
       .def(
@@ -384,6 +392,23 @@ void bind_sequencer(py::module_& module) {
             return self.reinitialise(at.of(self.dimensions(), "at"));
           },
           py::arg("at"))
+      .def(
+          "add_coupling",
+          [](Sequencer& self, const py::object& coupling) { self.add_coupling(kept(coupling)); },
+          py::arg("coupling"))
+      .def(
+          "remove_coupling",
+          [](Sequencer& self, const Coupling& coupling) {
+            for (const auto& one : self.couplings())
+              if (one.get() == &coupling) return self.remove_coupling(std::shared_ptr(one));
+            return false;
+          },
+          py::arg("coupling"))
+      .def("clear_couplings", &Sequencer::clear_couplings)
+      .property("couplings",
+                [](const Sequencer& self) {
+                  return TupleOf<Coupling>{py::tuple(py::cast(self.couplings()))};
+                })
       .def("append", &Sequencer::append, py::arg("sequence"))
       .def("replace", &Sequencer::replace, py::arg("sequence"))
       .def("clear", &Sequencer::clear)
@@ -391,6 +416,7 @@ void bind_sequencer(py::module_& module) {
       .property("state", [](Sequencer& self) { return Sample(self.state()); })
       .property("time", &Sequencer::time)
       .property("own_time", &Sequencer::own_time)
+      .property("motion_time", &Sequencer::motion_time)
       .property("rate", &Sequencer::rate)
       .property("goal", [](const Sequencer& self) { return Eigen::VectorXd(self.goal()); })
       .property("running", &Sequencer::running)
@@ -418,6 +444,12 @@ void bind_sequencer(py::module_& module) {
           py::arg("i"));
   bind_wishing(sequencer);
   (*sequencer).attr("kept_joins") = Sequencer::kept_joins;
+  def(
+      module, "add_obstacles",
+      [](const std::vector<ObstacleSettings>& all, Sequencer& to) {
+        return TupleOf<Obstacle>{py::tuple(py::cast(add_obstacles(all, to)))};
+      },
+      py::arg("all"), py::arg("sequencer"));
 
   Class<TimeScale> scale(module, "TimeScale");
   (*scale).def(py::init<>(), "Of rate 1.");

@@ -61,9 +61,9 @@ struct Fading {
 
 /// An obstacle's move, as a file says it.
 struct Moving {
-  Eigen::Vector3d to;  // [m]
-  double from = 0.0;   // [s] of the motion's own time
-  double over = 1.0;   // [s] how long it takes
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();  // [m]
+  double from = 0.0;                             // [s] of the motion's own time
+  double over = 1.0;                             // [s] how long it takes
 };
 
 /// What an obstacle is, as a value.
@@ -71,9 +71,9 @@ struct ObstacleSettings {
   Eigen::Vector3d at =
       Eigen::Vector3d::Zero();              // [m] its centre, in the frame of the coordinates x y z
   std::variant<Steering, Ball, Box> shape;  // and what it does
-  std::optional<Fading> appears;            // there from the beginning without
-  std::optional<Fading> vanishes;           // stays without
-  std::optional<Moving> moves;              // stands without
+  std::optional<Fading> appears = std::nullopt;   // there from the beginning without
+  std::optional<Fading> vanishes = std::nullopt;  // stays without
+  std::optional<Moving> moves = std::nullopt;     // stands without
 
   /// The same for a motion that is faster by a factor, which it leaves on its path: times are divided by it, γ is
   /// multiplied by it, s by its square.
