@@ -22,7 +22,9 @@ build/release/bench/seam render results/carrying --compare dmp2,dmp3 --inset --s
 cp results/line/torque.png bench/pictures/line-torque.png
 cp results/carrying/wave_m.png bench/pictures/carrying-wave.png
 
-(cd plugin/python/examples && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=../../../build/release/python /usr/bin/python3 05_four_methods.py >/dev/null)
+for example in 05_four_methods 06_wishes; do
+  (cd plugin/python/examples && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=../../../build/release/python /usr/bin/python3 $example.py >/dev/null)
+done
 
 build/release/bench/seam experiment --out results/experiments
 for question in speed joining-velocity kernel-width goal-change lag tick spilling what-rings rate-limit known-friction; do

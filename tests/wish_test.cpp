@@ -293,6 +293,46 @@ TEST(Wish, IsRefusedInWordsWhereItCannotBe) {
   EXPECT_THAT(why(reach, {pass(vector({1.0}), at(0.5))}), HasSubstr("per coordinate"));
 }
 
+TEST(Wish, IsRefusedWhereKernelsOrGainsAreTooSharpToTell) {
+  std::mt19937_64 random(seed);
+  Primitive narrow = test::random_primitive(random, 2, 10);
+  narrow.kernels.widths.setConstant(1e-9);
+  Primitive stiff = test::random_primitive(random, 2, 10);
+  stiff.gains = Gains{1.0, 1e6, 1.0};
+  for (const Primitive& primitive : {narrow, stiff}) {
+    Execution execution(primitive);
+    const Wish wish = pass(vector({0.1, NAN}), at(0.5 * primitive.tau));
+    EXPECT_FALSE(execution.set_wish(0, wish));
+    EXPECT_FALSE(execution.price_of(0, wish).possible);
+    execution.step(dt);
+    EXPECT_TRUE(execution.sample().position.allFinite());
+  }
+}
+
+// A quick decay, gains from soft to stiff, kernels that overlap much or little.
+TEST(Wish, IsMetWithOtherGainsKernelsAndDecays) {
+  std::mt19937_64 random(seed + 13);
+  for (const double alpha : {0.5, 2.0, 4.0})
+    for (const Gains& gains :
+         {Gains::critical(30.0), Gains::paper(), Gains{900.0, 90.0, 30.0}, Gains{400.0, 8.0, 20.0}})
+      for (const double width : {0.4, 1.0, 1.5}) {
+        Primitive primitive = test::random_primitive(random, 2, 15);
+        primitive.alpha = alpha;
+        primitive.gains = gains;
+        primitive.kernels = Kernels::even_in_time(15, width, alpha);
+        const double moment = 0.5 * primitive.tau + 0.3e-3;
+        Execution execution(primitive, {pass(vector({0.1, NAN}), at(moment)), arrive()});
+        execution.reinitialise(moving(random, primitive), 1.0, Join::dmp2a);
+        SCOPED_TRACE("alpha " + std::to_string(alpha) + ", K " + std::to_string(gains.K) +
+                     ", width " + std::to_string(width));
+        ASSERT_TRUE(execution.wishes_hold());
+        advance(execution, moment);
+        EXPECT_NEAR(execution.sample().position(0), 0.1, 2e-9 * range(primitive));
+        advance(execution, primitive.tau - moment);
+        EXPECT_LE(largest(execution.sample().position - primitive.goal), 2e-9 * range(primitive));
+      }
+}
+
 // What is refused on the way changes nothing, to the bit.
 TEST_P(OfEveryMethod, ThatIsRefusedOnTheWayChangesNothing) {
   std::mt19937_64 random(seed + 5);

@@ -18,8 +18,9 @@ namespace {
 constexpr int D = 7;
 constexpr int M = 10;
 constexpr double dt = 1e-3;
+constexpr double wish_limit = 20e-6;  // [s]
 
-Primitive primitive() {
+Primitive primitive(int M = micro::M) {
   Primitive primitive;
   for (int d = 0; d < D; ++d) primitive.coordinates.push_back("q" + std::to_string(d));
   primitive.kernels = Kernels::even_in_time(M, 0.75, primitive.alpha);
@@ -139,6 +140,34 @@ Pair play(Join join, bool rate_moves) {
   return {steps(sequencer), steps(loop), ticks, restart};
 }
 
+/// A wish of seven coordinates of twenty kernels that is moved on the way, as a camera does.
+Pair wishing() {
+  const Primitive shown = primitive(20);
+  const auto execution = std::make_shared<Execution>(shown);
+  execution->reinitialise(Sample::at_rest(shown.start_position), 1.0, Join::dmp2a);
+  for (int k = 0; k < 100; ++k) execution->step(dt);
+  const Wish wish = hit(Eigen::VectorXd::Constant(D, 0.4), Eigen::VectorXd::Constant(D, 0.2), at(0.6));
+  constexpr int moves = 100;
+  return {timed([=] {
+            for (int i = 0; i < moves; ++i)
+              benchmark::DoNotOptimize(execution->set_wish(0, wish));
+          }),
+          [] { return moves * wish_limit; }, moves};
+}
+
+/// A step while something is in the way.
+Pair coupled() {
+  Primitive shown = primitive();
+  for (int d = 0; d < 3; ++d) shown.coordinates[static_cast<std::size_t>(d)] = "xyz"[d];
+  Sequence sequence;
+  sequence.then(shown).until(after(1e9));
+  const auto alone =
+      std::make_shared<Sequencer>(sequence, Join::dmp3, Sample::at_rest(shown.start_position));
+  const auto round = std::make_shared<Sequencer>(*alone);
+  add_obstacles({ObstacleSettings{Eigen::Vector3d::Constant(0.5), Box{}}}, *round);
+  return {steps(round), steps(alone), ticks};
+}
+
 }  // namespace
 
 void add_step_benchmarks() {
@@ -147,6 +176,8 @@ void add_step_benchmarks() {
              [join] { return play(join, false); });
   add_pair("sequencer step while the rate moves / bare loop", 3.0, 500,
            [] { return play(Join::dmp3, true); });
+  add_pair("a wish moved on the way, 7 coordinates × 20 kernels / 20 µs", 1.0, 500, wishing);
+  add_pair("sequencer step beside a box / without", no_bar, 500, coupled);
 }
 
 }  // namespace seam::micro

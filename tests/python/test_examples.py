@@ -63,3 +63,12 @@ def test_four_methods(tmp_path):
 
 def test_all_are_run():
     assert len(list(FOLDER.glob("*.py"))) == sum(name.startswith("test_") for name in globals()) - 1
+
+
+def test_wishes(tmp_path):
+    pytest.importorskip("matplotlib")
+    text = run("06_wishes.py", tmp_path)
+    first = re.search(r"^ +0\.50 +([\d.]+), ([\d.]+)", text, re.M)
+    assert 0.09 < float(first.group(1)) < 0.13
+    assert re.search(r"^ +0\.02 +refused +refused +refused +refused", text, re.M)
+    assert (tmp_path / "wishes.png").stat().st_size > 20_000

@@ -28,10 +28,11 @@ double end_of(const Primitive& primitive) {
   return std::clamp(-std::log(least_phase) / primitive.alpha, shortest, longest);
 }
 
-// The shortest s over which one kernel gives way to the next: normalised Gaussians at a distance d cross over like a
-// logistic function of scale sigma^2/d.
-double sharpest(const Primitive& primitive) {
+// The shortest s over which one kernel gives way to the next, until an end: normalised Gaussians at a distance d cross over
+// like a logistic function of scale sigma^2/d.
+double sharpest(const Primitive& primitive, double end) {
   const bool discrete = primitive.kind == Kind::discrete;
+  const double last = discrete ? std::exp(-primitive.alpha * end) : -HUGE_VAL;
   std::vector<std::pair<double, double>> kernels;
   for (int j = 0; j < primitive.kernels.count(); ++j)
     kernels.emplace_back(primitive.kernels.centers(j), primitive.kernels.widths(j));
@@ -40,9 +41,10 @@ double sharpest(const Primitive& primitive) {
   for (std::size_t j = 0; j + 1 < kernels.size(); ++j) {
     const auto& [center, width] = kernels[j];
     const auto& [next, next_width] = kernels[j + 1];
+    if (next < last) continue;
     const double sigma = std::min(width, next_width) * (discrete ? 1.0 : M_SQRT2);
     const double scale = std::min(sigma, sigma * sigma / (next - center));
-    const double rate = discrete ? primitive.alpha * std::clamp(next, least_phase, 1.0) : 1.0;
+    const double rate = discrete ? primitive.alpha * std::min(next, 1.0) : 1.0;
     least = std::min(least, scale / rate);
   }
   return least;
@@ -58,7 +60,7 @@ Responses::Responses(const Primitive& primitive) : gains_(primitive.gains), basi
   const int M = basis_.count();
   const double end = end_of(primitive);
   const double longest_panel =
-      std::min(transitions * sharpest(primitive), settling / fastest(gains_));
+      std::min(transitions * sharpest(primitive, end), settling / fastest(gains_));
   const double panels = std::max(std::ceil(end / longest_panel), 8.0);
   const bool kept = panels * M <= most_entries;
   panel_ = kept ? end / panels : 0.0;

@@ -22,7 +22,7 @@ class Responses {
   double at_phase(double phase) const noexcept;
   /// Whether answers at an s are known: discrete until x = 0.01, or somewhat beyond τ; rhythmic for two turns; none at all where
   /// gains or kernels are too sharp, or more than 1e5 numbers would have to be kept.
-  bool cover(double s) const noexcept { return s <= panels() * panel_; }
+  bool cover(double s) const noexcept { return panels() > 0 && s <= panels() * panel_; }
 
   using State = Eigen::Matrix<double, Eigen::Dynamic, 2>;  // M × (R, R′)
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4>;   // M × (R, R′, R″, R‴)
