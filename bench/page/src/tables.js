@@ -18,11 +18,12 @@ function share_of_dmp2(runs, run) {
   return share < 10 ? String(Number(share.toPrecision(2))) : share.toFixed(0);
 }
 
-// Shares are told; lengths are in the scene's own table.
+// What explains others is in the scene's own table alone, as in the overview of bench/columns.cpp.
+const explaining = ['wave peak', 'ringing', 'resonance'];
 const outcomes_of = (runs) =>
   [...new Set(runs.flatMap((run) => Object.keys(run.outcomes)))]
     .map((name) => [name, of_both(runs.map((run) => run.outcomes[name] ?? '0 %'))])
-    .filter(([, value]) => value.includes('%'))
+    .filter(([name]) => !explaining.includes(name))
     .map(([name, value]) => `${name} ${value}`)
     .join(', ');
 
