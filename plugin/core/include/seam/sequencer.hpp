@@ -65,9 +65,10 @@ class Sequencer {
   /// beginning waits there, at rest. False where the state will not do.
   bool reinitialise(const Sample& at) noexcept;
 
-  /// Adds an acceleration to the motion from now on (see Coupling), also to what is appended later; several add up. While the
-  /// start is held before the first primitive none acts. ÿ steps by what it is when it is added or removed, which
-  /// should be 0; not so before the first step, where the start is joined to again. Adding and removing allocate; the steps do not.
+  /// Adds an acceleration to the motion from now on (see Coupling), also to what is appended later; several add up. While
+  /// the start is held before the first primitive none acts. ÿ steps by what it is when it is added or removed, which
+  /// should be 0; not so before the first step, where the start is joined to again. Adding and removing allocate, the
+  /// steps do not.
   /// @param coupling  shared: copies of the sequencer have the same ones, but each its own list
   /// @throws Error  it is null
   void add_coupling(std::shared_ptr<Coupling> coupling);
@@ -92,7 +93,8 @@ class Sequencer {
   /// The present state in real time with the jerk, also while the rate moves (see TimeScale).
   const Sample& state() noexcept;
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
-  /// [s] since construction in the sequence's own time, which is what couplings are told; `time` while the rate is 1 throughout.
+  /// [s] since construction in the sequence's own time, which is what couplings are told; it differs from `time` once the
+  /// rate has not been 1.
   double motion_time() const noexcept { return entered_ + own_time_; }
   double rate() const noexcept { return scale_.rate(); }  // of the sequence's time to real time
   /// Goal of what runs now, or runs first.
