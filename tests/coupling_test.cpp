@@ -60,8 +60,8 @@ Ode::Matrix motion_of(const Sample& at) {
   return motion;
 }
 
-// Largest difference from an independent solution, a share of the coordinate's range, over 2 s of a discrete, a rhythmic and a discrete primitive, joined while
-// the gust blows; with a rhythm of 2 s. One of 1 s has up to 1.7e-9 at 1 ms.
+// Largest difference from an independent solution, a share of the coordinate's range, over 2 s of a discrete, a rhythmic
+// and a discrete primitive, joined while the gust blows; with a rhythm of 2 s. One of 1 s has up to 1.7e-9 at 1 ms.
 double error_of_the_whole(const JoinSettings& method, double dt, int ode_steps) {
   constexpr int D = 3;
   std::mt19937_64 random(61);

@@ -766,8 +766,9 @@ TEST_P(SequenceFileRefuses, WithFileLineAndKey) {
 INSTANTIATE_TEST_SUITE_P(
     , SequenceFileRefuses,
     testing::Values(
-        BadFile{"NewerFormat", "sequence 1", "sequence 3",
-                ":1: key \"format\": \"seam-sequence 3\", must be seam-sequence 1 to 2 (a newer seam"},
+        BadFile{
+            "NewerFormat", "sequence 1", "sequence 3",
+            ":1: key \"format\": \"seam-sequence 3\", must be seam-sequence 1 to 2 (a newer seam"},
         BadFile{"ExtraKey", "start_after", "start_at",
                 ":5: key \"start_at\": not known here, must be one of format, start, start_after"},
         BadFile{"NegativeDelay", "after: 0", "after: -1", ":5: key \"start_after\": -1, must be"},
@@ -795,7 +796,8 @@ INSTANTIATE_TEST_SUITE_P(
                 ":13: key \"play\": \"romp\", is not among the primitives"},
         BadFile{"NothingToPlay", "play: ramp, ", "", ":13: key \"steps\": needs the key \"play\""},
         BadFile{"ExtraInStep", "{play: reach}", "{play: reach, tau: 2}",
-                ":14: key \"tau\": not known here, must be one of play, enter, leave, pass, hit, arrive, until"},
+                ":14: key \"tau\": not known here, must be one of play, enter, leave, pass, hit, "
+                "arrive, until"},
         BadFile{"SwitchTooEarly", "before_end: 0.4", "before_end: 1.3",
                 ":11: key \"until\": sequence: primitive 1: its switch"},
         BadFile{"SwitchNotFinite", "before_end: 0.4", "before_end: inf",

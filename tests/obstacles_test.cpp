@@ -265,6 +265,57 @@ TEST(Obstacle, AppearsMovesAndVanishesWithoutAStep) {
   }
 }
 
+// The ends of a reach are smooth enough, wherever they lie between the ticks.
+TEST(Obstacle, LeavesTheMotionOfFourthOrderInTheTick) {
+  Box box;
+  box.size = {0.04, 0.04, 0.04};
+  box.orientation = Eigen::AngleAxisd(0.7, Vector(0.0, 0.3, 1.0).normalized());
+  for (const std::variant<Steering, Ball, Box>& shape :
+       {std::variant<Steering, Ball, Box>(Steering{}), {Ball{}}, {box}}) {
+    const Sequence task = hand();
+    Sequencer exact(task, Join::dmp2a, task.start_state());
+    add_obstacles({{{0.15, 0.03, 0.003}, shape, {}, {}, Moving{{0.15, 0.04, 0.0}, 0.2, 0.5}}},
+                  exact);
+    Sequencer coarse = exact;
+    Sequencer fine = exact;
+    Eigen::Vector2d worst(0.0, 0.0);
+    for (int k = 0; k < 300; ++k) {
+      coarse.step(4e-3);
+      for (int i = 0; i < 2; ++i) fine.step(2e-3);
+      for (int i = 0; i < 64; ++i) exact.step(4e-3 / 64);
+      const Vector y = exact.sample().position;
+      worst = worst.cwiseMax(Eigen::Vector2d((coarse.sample().position - y).norm(),
+                                             (fine.sample().position - y).norm()));
+    }
+    EXPECT_NEAR(std::log2(worst(0) / worst(1)), 4.0, 0.4) << shape.index();
+    EXPECT_LT(worst(1), 1e-7) << shape.index();
+  }
+}
+
+// A motion that is faster with everything round it goes the same way.
+TEST(Obstacle, AtAnotherSpeedLeavesTheMotionOnItsPath) {
+  Sequence slow = hand();
+  Sequence fast;
+  fast.then(slow.steps()[0].primitive.at_speed(2.0));
+  for (const std::variant<Steering, Ball, Box>& shape :
+       {std::variant<Steering, Ball, Box>(Steering{}), {Ball{}}, {Box{}}}) {
+    const ObstacleSettings settings{{0.15, 0.03, 0.003},
+                                    shape,
+                                    Fading{0.05, 0.2},
+                                    Fading{0.8, 0.1},
+                                    Moving{{0.15, 0.05, 0.0}, 0.2, 0.5}};
+    Sequencer one(slow, Join::dmp3, slow.start_state());
+    Sequencer two(fast, Join::dmp3, fast.start_state());
+    add_obstacles({settings}, one);
+    add_obstacles({settings.at_speed(2.0)}, two);
+    for (int k = 0; k < 1500; ++k) {
+      one.step(1e-3);
+      two.step(5e-4);
+      ASSERT_LT((one.sample().position - two.sample().position).norm(), 1e-12) << shape.index();
+    }
+  }
+}
+
 TEST(Obstacle, IsWhereAndWhenItsSettingsSay) {
   ObstacleSettings settings;
   settings.at = {1.0, 0.0, 0.0};

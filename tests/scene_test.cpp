@@ -79,6 +79,27 @@ TEST(LineScene, GivesTheSameBitsTwiceAndWithAnyNumberOfJobs) {
 }
 
 // A goal that moves on the way steps the acceleration by K·Δg/τ² with dmp2 and not with the others.
+// By name in the scene's sequence: a ball beside what the path would be. All of it is hastened with the scene.
+TEST(SceneCouplings, KeepTheToolAway) {
+  const auto path = [](const std::vector<std::string>& overrides) {
+    std::vector<std::string> all{"liquid.frozen=yes"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const Scene scene = Scene::read(std::string(SEAM_SCENES) + "/carrying.yaml", all);
+    return Eigen::MatrixX3d(play(scene, Join::dmp3, 2e-3).tool_ref.leftCols(3));
+  };
+  const Eigen::MatrixX3d alone = path({});
+  const Eigen::RowVector3d at = alone.row(400) + Eigen::RowVector3d(0.01, 0.0, 0.01);
+  std::ostringstream ball;
+  ball << "sequence.couplings=[{ball: {at: [" << at.format(Eigen::IOFormat(6, 0, ", ", ", "))
+       << "], radius: 0.05}, appears: {from: 0.2}}]";
+  const auto nearest = [&](const Eigen::MatrixX3d& points) {
+    return (points.rowwise() - at).rowwise().norm().minCoeff();
+  };
+  EXPECT_LT(nearest(alone), 0.02);
+  EXPECT_GT(nearest(path({ball.str()})), 0.07);
+  EXPECT_NEAR(nearest(path({ball.str(), "speed=1.5"})), nearest(path({ball.str()})), 1e-3);
+}
+
 TEST(SceneEvents, ChangeTheGoalOnTheWayAndAreMeasuredLikeJoins) {
   const TempFolder folder;
   const std::string path =

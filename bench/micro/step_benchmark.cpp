@@ -20,11 +20,11 @@ constexpr int M = 10;
 constexpr double dt = 1e-3;
 constexpr double wish_limit = 20e-6;  // [s]
 
-Primitive primitive(int M = micro::M) {
+Primitive primitive(int kernels = M) {
   Primitive primitive;
   for (int d = 0; d < D; ++d) primitive.coordinates.push_back("q" + std::to_string(d));
-  primitive.kernels = Kernels::even_in_time(M, 0.75, primitive.alpha);
-  primitive.weights = 100.0 * Eigen::MatrixXd::Random(M, D);
+  primitive.kernels = Kernels::even_in_time(kernels, 0.75, primitive.alpha);
+  primitive.weights = 100.0 * Eigen::MatrixXd::Random(kernels, D);
   primitive.goal.setOnes(D);
   primitive.start_position.setZero(D);
   primitive.start_velocity = primitive.start_acceleration = primitive.start_position;
@@ -146,11 +146,11 @@ Pair wishing() {
   const auto execution = std::make_shared<Execution>(shown);
   execution->reinitialise(Sample::at_rest(shown.start_position), 1.0, Join::dmp2a);
   for (int k = 0; k < 100; ++k) execution->step(dt);
-  const Wish wish = hit(Eigen::VectorXd::Constant(D, 0.4), Eigen::VectorXd::Constant(D, 0.2), at(0.6));
+  const Wish wish =
+      hit(Eigen::VectorXd::Constant(D, 0.4), Eigen::VectorXd::Constant(D, 0.2), at(0.6));
   constexpr int moves = 100;
   return {timed([=] {
-            for (int i = 0; i < moves; ++i)
-              benchmark::DoNotOptimize(execution->set_wish(0, wish));
+            for (int i = 0; i < moves; ++i) benchmark::DoNotOptimize(execution->set_wish(0, wish));
           }),
           [] { return moves * wish_limit; }, moves};
 }

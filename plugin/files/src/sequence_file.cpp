@@ -363,8 +363,8 @@ SequenceFile read_sequence(const std::string& path, std::vector<std::string> all
 }
 
 void write_sequence(const std::string& path, const SequenceFile& file) {
-  std::string text =
-      std::string("format: ") + format_name + (has_wishes(file.sequence) || !file.couplings.empty() ? " 2" : " 1");
+  std::string text = std::string("format: ") + format_name +
+                     (has_wishes(file.sequence) || !file.couplings.empty() ? " 2" : " 1");
   text += "\n";
   const auto& names = file.sequence.coordinates();
   if (file.start) text += start_text(*file.start, names);

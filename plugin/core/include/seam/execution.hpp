@@ -101,9 +101,9 @@ class Execution {
   const Price& price_of(int which, const Wish& wish) noexcept;
 
   /// Adds an acceleration C(y, ẏ, t) to the equation of motion from now on, in place of one that acts; null: none. It
-  /// allocates, what follows does not. F and Ḟ are then less by τ²C and τ²Ċ, so that joins and changes continue ÿ, and the
-  /// jerk, while C acts; ÿ steps by what C is now. Ċ is a central difference along the motion over ±10 µs: of
-  /// what changes within 0.1 s it is exact to some 1e-8, of a C that bends just here it is the mean of both sides.
+  /// allocates, what follows does not. F and Ḟ are then less by τ²C and τ²Ċ, so that joins and changes continue ÿ, and
+  /// the jerk, while C acts; ÿ steps by what C is now. Ċ is a central difference along the motion over ±10 µs: of what
+  /// changes within 0.1 s it is exact to 1e-8 and better; of a C that bends just here it is the mean of both sides.
   /// @param coupling  shared; it must not be changed within a step
   /// @param time      [s] of the motion, which C is told; it goes on with the steps
   void couple(std::shared_ptr<const Coupling> coupling, double time);

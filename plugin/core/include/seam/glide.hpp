@@ -10,7 +10,7 @@
 
 namespace SEAM_API seam {
 
-/// A value that is sent to others and gets there without a step, as a function of time. From p₀, ṗ₀, p̈₀ at t₀, also in
+/// A value that is sent elsewhere and gets there without a step, as a function of time. From p₀, ṗ₀, p̈₀ at t₀, also in
 /// the midst of another move, it moves to p₁ in a time T and is at rest there:
 ///     p(t) = p₀ + B(t) + (p₁ − p₀ − B(t₀ + Tᵦ))·(10u³ − 15u⁴ + 6u⁵),   u = (t − t₀)/T
 ///     B(t) = Tᵦṗ₀(w − w³ + w⁴/2) + Tᵦ²p̈₀(w²/2 − 2w³/3 + w⁴/4),         w = min((t − t₀)/Tᵦ, 1)

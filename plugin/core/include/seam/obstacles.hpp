@@ -19,13 +19,13 @@ class Sequencer;
 
 /// A point that a moving tool steers round (Hoffmann, Park, Pastor and Schaal 2009), windowed:
 ///     C = γ·Rẏ·φ·exp(−βφ)·W(|o − y|)
-/// φ is the angle between ẏ and the way o − y to the point, R a quarter turn about (o − y) × ẏ: away from the point, at right
-/// angles to the motion, which it makes neither faster nor slower. Without the sine's quotient by 0 it reads
+/// φ is the angle between ẏ and the way o − y to the point, R a quarter turn about (o − y) × ẏ: away from the point, at
+/// right angles to the motion, which it makes neither faster nor slower. Finite also where φ = 0 it reads
 ///     C = −γ·|ẏ|·exp(−βφ)·(φ/sin φ)·n/|o − y|·W,   n: what of o − y is across ẏ
 /// W falls from 1 at half the reach to 0 at the reach, by the quintic; and for φ > π/2, where the point is behind and the
-/// paper leaves a trace, C falls to 0 at φ = π in the same way. C is 0 where the tool stands, where it heads straight for the
-/// point (there it does not steer), and at the point. It bends where ẏ or φ passes through 0, and is three times
-/// differentiable elsewhere but for the ends of W.
+/// paper leaves a trace, C falls to 0 at φ = π in the same way. C is 0 where the tool stands, where it heads straight for
+/// the point (so it does not steer there), and at the point. It bends where ẏ passes through 0, its second derivative
+/// steps where φ does; elsewhere it has two continuous derivatives. The paper's β is 20/π, which leaves less room.
 struct Steering {
   double strength = 1000.0;        // γ [1/(rad·s)] ≥ 0
   double sharpness = 10.0 / M_PI;  // β [1/rad] ≥ 0: C is strongest at φ = 1/β
@@ -42,10 +42,11 @@ struct Ball {
   double reach = 0.1;       // L [m] > 0, from the surface
 };
 
-/// A box that pushes likewise; d⁴ = Σe⁴ of the amounts e ≥ 0 by which the tool is beyond its sides along its own three axes.
-/// This is the distance before a side, and less than it, by a fourth at the most, off edges and corners; so C has two continuous derivatives
-/// everywhere outside. Inside d is minus the distance from the nearest side, and C changes its direction
-/// where another side becomes the nearest.
+/// A box that pushes likewise. d⁴ = Σe⁴ of the amounts e ≥ 0 by which the tool is beyond its sides along its own three
+/// axes: the distance before a side, and less than it, by a fourth at the most, off edges and corners; so C has two
+/// continuous derivatives everywhere outside. Inside d is minus the distance from the nearest side, and C changes its
+/// direction where another side becomes the nearest. A tool that heads squarely for a side stops before it; it does not
+/// find a way round.
 struct Box {
   Eigen::Vector3d size = {0.1, 0.1, 0.1};                           // [m] > 0, edge lengths
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of unit length
@@ -80,9 +81,9 @@ struct ObstacleSettings {
   ObstacleSettings at_speed(double factor) const;
 };
 
-/// An obstacle to a tool with the coordinates x y z, or x y in a plane, where z is that of the obstacle. It can appear, move and vanish while the
-/// motion runs, each over a time and without a step in C: strength and position are a Glide each, of the
-/// motion's own time. It is the tool's point that keeps away, not the arm's links.
+/// An obstacle to a tool with the coordinates x y z; or x y in a plane, where z is taken to be the obstacle's. It can appear,
+/// move and vanish while the motion runs, each over a time and without a step in C: strength and position are a Glide
+/// each, of the motion's own time. It is the tool's point that keeps away, not the arm's links.
 ///
 ///     auto ball = std::make_shared<Obstacle>(task.coordinates(), ObstacleSettings{{0.4, 0, 0.3}, Ball{}});
 ///     sequencer.add_coupling(ball);

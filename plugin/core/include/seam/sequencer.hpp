@@ -85,9 +85,11 @@ class Sequencer {
   int wishes() const noexcept { return first_or_now().wishes(); }
   /// False where they were dropped, since the primitive began in a state from where they could not be met.
   bool wishes_hold() const noexcept { return first_or_now().wishes_hold(); }
-  /// Adds an acceleration to the motion from now on (see Coupling), also to what is appended later; several add up. While the
-  /// start is held before the first primitive none acts. ÿ steps by what it is when it is added or removed, which
-  /// should be 0; not so before the first step, where the start is joined to again. Adding and removing allocate; the steps do not.
+
+  /// Adds an acceleration to the motion from now on (see Coupling), also to what is appended later; several add up. While
+  /// the start is held before the first primitive none acts. ÿ steps by what it is when it is added or removed, which
+  /// should be 0; not so before the first step, where the start is joined to again. Adding and removing allocate, the
+  /// steps do not.
   /// @param coupling  shared: copies of the sequencer have the same ones, but each its own list
   /// @throws Error  it is null
   void add_coupling(std::shared_ptr<Coupling> coupling);
@@ -115,6 +117,8 @@ class Sequencer {
   /// Time of the motion since what runs now began [s], from which the times of its switch and its wishes count.
   double own_time() const noexcept { return own_time_; }
   /// [s] since construction in the sequence's own time, which is what couplings are told; `time` while the rate is 1 throughout.
+  /// [s] since construction in the sequence's own time, which is what couplings are told; it differs from `time` once the
+  /// rate has not been 1.
   double motion_time() const noexcept { return entered_ + own_time_; }
   double rate() const noexcept { return scale_.rate(); }  // of the sequence's time to real time
   /// Goal of what runs now, or runs first.
