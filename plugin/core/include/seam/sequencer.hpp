@@ -116,7 +116,6 @@ class Sequencer {
   double time() const noexcept { return entered_ + own_time_ + behind_; }  // [s] since construction
   /// Time of the motion since what runs now began [s], from which the times of its switch and its wishes count.
   double own_time() const noexcept { return own_time_; }
-  /// [s] since construction in the sequence's own time, which is what couplings are told; `time` while the rate is 1 throughout.
   /// [s] since construction in the sequence's own time, which is what couplings are told; it differs from `time` once the
   /// rate has not been 1.
   double motion_time() const noexcept { return entered_ + own_time_; }
