@@ -52,6 +52,26 @@ TEST(Overview, HasOneFigureWhereThereIsOneArm) {
   EXPECT_THAT(text, AllOf(HasSubstr("|               0.5 |"), Not(HasSubstr(" / b"))));
 }
 
+TEST(Overview, TellsWhatCameOfASceneInUnitsForPeople) {
+  Comparison caught = on("ideal", 0.5, 0.0, 0.0, 0.0);
+  caught.runs[0].recording.outcomes = {{"miss_m", 0.00224},
+                                       {"velocity_miss_m_s", 0.0087},
+                                       {"time_miss_s", 0.00234},
+                                       {"clearance_m", -0.06, true},
+                                       {"obstacle_distance_m", NAN, true},
+                                       {"wave_peak_m", 0.01},
+                                       {"ringing_nm", 3.0},
+                                       {"stopped_share", 0.0},
+                                       {"limited_share", 0.1}};
+  EXPECT_THAT(overview({caught}),
+              HasSubstr("| miss 2.2 mm, velocity miss 8.7 mm/s, time miss 2.3 ms, "
+                        "clearance -60.0 mm, obstacle distance n/a |"));
+  const std::string text = table(caught);
+  for (const char* heading : {"| miss [m] ", "| velocity miss [m/s] ", "| time miss [s] ",
+                              "| clearance [m] ", "| wave peak [m] ", "| ringing [N·m] "})
+    EXPECT_THAT(text, HasSubstr(heading));
+}
+
 TEST(Overview, TellsTrackingInTheUnitsOfWhatIsMissed) {
   EXPECT_THAT(overview({on("soft", 1.0, 0.0, 0.0, 0.0, {"x", "y", "z"})}),
               AllOf(HasSubstr(" 0.10 mm |"), HasSubstr(" 12 mm |")));
