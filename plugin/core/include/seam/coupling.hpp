@@ -30,11 +30,6 @@ class Coupling {
   /// @param ydd  D values [per s²], to which C is added; they have to stay finite
   virtual void add(const Eigen::VectorXd& y, const Eigen::VectorXd& yd, double t,
                    Eigen::VectorXd& ydd) const noexcept = 0;
-
- protected:
-  Coupling() = default;
-  Coupling(const Coupling&) = default;
-  Coupling& operator=(const Coupling&) = default;
 };
 
 }  // namespace seam

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <seam/alignment.hpp>
 #include <seam/coupling.hpp>
 #include <seam/export.hpp>
 #include <seam/glide.hpp>
