@@ -249,7 +249,9 @@ double largest_change(const std::variant<Steering, Ball, Box>& shape, double dt)
       EXPECT_TRUE(sequencer.set_goal(sequencer.goal().array() + 1e-9));  // takes C anew
       EXPECT_LT((sequencer.sample().acceleration - seen).norm(), 1e-9);
     }
-    if (k == 20 * per_frame) EXPECT_TRUE(obstacle->vanish(now, 0.1));
+    if (k == 20 * per_frame) {
+      EXPECT_TRUE(obstacle->vanish(now, 0.1));
+    }
   }
   EXPECT_EQ(obstacle->presence(sequencer.motion_time()), 0.0);
   return largest;
