@@ -259,6 +259,83 @@ TEST(Wish, OfARhythmMadeWhileTheJoinFadesDoesNotStep) {
   }
 }
 
+TEST(Wish, OfARhythmMadeAfterTheJoinHasFadedDoesNotStep) {
+  std::mt19937_64 random(seed + 14);
+  for (const JoinSettings& method : test::continuous_methods) {
+    const Primitive primitive = test::random_primitive(random, 2, 20, Kind::rhythmic);
+    Execution execution(primitive);
+    execution.reinitialise(moving(random, primitive), 0.0, method);
+    advance(execution, 4.5 * primitive.tau);
+    const Eigen::VectorXd before = execution.sample().acceleration;
+    ASSERT_TRUE(execution.set_wish(0, pass(vector({NAN, 0.1}), at(5.9 * primitive.tau))));
+    execution.step(1e-9);
+    EXPECT_LE(largest(execution.sample().acceleration - before), 1e-5 * largest(before));
+  }
+}
+
+TEST(Wish, IsRefusedWhereItIsNearerThanRounding) {
+  std::mt19937_64 random(seed + 15);
+  for (const JoinSettings& method : test::all_methods())
+    for (const double tau : {0.3, 1.0, 1000.0}) {
+      Primitive primitive = test::random_primitive(random, 2, 20);
+      primitive.tau = tau;
+      Execution execution(primitive);
+      execution.reinitialise(moving(random, primitive), 1.0, method);
+      advance(execution, 0.1);
+      for (const double ahead : {1.1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4})
+        EXPECT_FALSE(execution.set_wish(
+            0, pass(execution.sample().position.array() + 0.1, at(0.1 + ahead))));
+    }
+}
+
+TEST(Wish, ThatATauWouldPutIntoThePastHoldsTheTau) {
+  std::mt19937_64 random(seed + 16);
+  Primitive primitive = test::random_primitive(random, 2, 20);
+  primitive.tau = 1.0;
+  Execution execution(primitive, {arrive(before_end(0.3))});
+  execution.reinitialise(moving(random, primitive), 1.0, Join::dmp2a);
+  advance(execution, 0.3);
+  EXPECT_FALSE(execution.set_tau(0.3));
+  EXPECT_EQ(execution.tau(), 1.0);
+  advance(execution, 0.4);
+  EXPECT_LE(largest(execution.sample().position - primitive.goal), 1e-9 * range(primitive));
+}
+
+TEST(Wish, ThatIsLostLeavesTheOthers) {
+  std::mt19937_64 random(seed + 17);
+  const Primitive primitive = test::random_primitive(random, 2, 20);
+  const double moment = 0.5 * primitive.tau;
+  Execution execution(primitive, {pass(vector({0.3, 0.1}), at(moment)), arrive()});
+  execution.reinitialise(moving(random, primitive), 1.0, Join::dmp2a);
+  EXPECT_TRUE(execution.price().possible);
+  advance(execution, moment - 0.005);
+  Sample pushed = execution.state();
+  pushed.position.array() += 0.01;
+  execution.resume(pushed);
+  EXPECT_FALSE(execution.wishes_hold());
+  EXPECT_FALSE(execution.price().possible);
+  advance(execution, primitive.tau - moment + 0.005);
+  EXPECT_LE(largest(execution.sample().position - primitive.goal), 1e-9 * range(primitive));
+}
+
+TEST(Wish, IsNotSaidToHoldWhereACouplingActsAtItsMoment) {
+  class Wind : public Coupling {
+   public:
+    void add(const Eigen::VectorXd&, const Eigen::VectorXd&, double t,
+             Eigen::VectorXd& ydd) const noexcept override {
+      if (t > 0.4 && t < 0.8) ydd(0) += 30.0 * std::pow(std::sin((t - 0.4) / 0.4 * M_PI), 4);
+    }
+  };
+  for (const double moment : {0.3, 0.6}) {
+    Primitive primitive = learn(test::minimum_jerk());
+    Execution execution(primitive, {pass(vector({0.4}), at(moment))});
+    execution.couple(std::make_shared<Wind>(), 0.0);
+    execution.reinitialise(Sample::at_rest(Eigen::VectorXd::Zero(1)), 1.0, Join::dmp2a);
+    for (int k = 0; k < 1000; ++k) execution.step(dt);
+    EXPECT_EQ(execution.wishes_hold(), moment < 0.4) << moment;
+  }
+}
+
 TEST(Wish, IsRefusedInWordsWhereItCannotBe) {
   std::mt19937_64 random(seed);
   const Primitive reach = test::random_primitive(random, 2, 10);
@@ -284,6 +361,11 @@ TEST(Wish, IsRefusedInWordsWhereItCannotBe) {
   EXPECT_THAT(why(reach, {pass(here, at(-0.5))}), HasSubstr("must be > 0"));
   EXPECT_THAT(why(reach, {pass(here, at(9.0 * tau))}), HasSubstr("lost their hold"));
   EXPECT_THAT(why(reach, {arrive(), pass(here, at(1.2 * tau))}), HasSubstr("after the arrival"));
+  EXPECT_THAT(why(reach, {arrive(at(0.6 * tau)), arrive(at(0.9 * tau))}),
+              StartsWith("wish 2: arrives for a second time"));
+  Wish elsewhere = arrive();
+  elsewhere.position = here;
+  EXPECT_THAT(why(reach, {elsewhere}), HasSubstr("no values of its own"));
   EXPECT_THAT(why(rhythm, {arrive(at(0.5))}), HasSubstr("rhythmic"));
   EXPECT_THAT(why(rhythm, {pass(here, at(7.0 * rhythm.tau))}), HasSubstr("after the cycle"));
   EXPECT_THAT(why(reach, {pass(here, near_goal(0.1))}), HasSubstr("moment"));
@@ -562,6 +644,20 @@ TEST(Sequence, KeepsWishesAndRefusesThoseThatCannotBe) {
               }),
               HasSubstr("sequence: primitive 1: wish 3: asks too much"));
   EXPECT_EQ(task.steps()[0].wishes.size(), 2u) << "what is refused changes nothing";
+  Sequence hits;
+  hits.then(reach).hit({{"y0", 0.4}}, {}, at(0.6 * reach.tau));
+  EXPECT_THAT(refusal([&] { hits.until(at_end()); }), HasSubstr("hands over at its hit"));
+  EXPECT_THAT(refusal([&] {
+                hits.hit({{"y0", 0.3}}, {}, at(0.5 * reach.tau));
+              }),
+              HasSubstr("hands over for a second time"));
+  Sequence::Step step{reach, Switch(), {}, hits.steps()[0].wishes, {}};
+  EXPECT_EQ(Sequence().then(step).steps()[0].until.value, 0.6 * reach.tau);
+  const Primitive wipe = test::random_primitive(random, 2, 20, Kind::rhythmic);
+  Sequence round;
+  round.then(wipe).enter(least_correction());
+  EXPECT_THAT(refusal([&] { round.pass({{"y0", 0.3}}, at(-0.5)); }), HasSubstr("must be > 0"));
+  EXPECT_THAT(refusal([&] { round.pass({{"y0", 0.3}}, at(50.0)); }), HasSubstr("the cycle"));
   Sequence late;
   late.then(reach).until(after(0.3 * reach.tau)).pass({{"y0", 0.4}}, at(0.5 * reach.tau));
   EXPECT_THAT(refusal([&] { late.then(reach); }), HasSubstr("wish 1 is for"));
@@ -583,7 +679,11 @@ TEST(Sequencer, HandsOverAtAHitThatMovesAndTellsThePrice) {
     EXPECT_GT(largest(sequencer.join(0).price.deviation), 0.0);
     while (sequencer.time() < 0.4 * moment) sequencer.step(dt);
     const Wish later = hit(vector({0.55, 0.12}), vector({0.2, -0.4}), at(moment + 0.02 + 0.3e-3));
+    EXPECT_FALSE(sequencer.set_wish(1, pass(vector({0.5, 0.1}), at(0.9 * reach.tau))))
+        << "comes after the switch";
     EXPECT_TRUE(sequencer.set_wish(0, later));
+    EXPECT_FALSE(sequencer.set_wish(0, pass(vector({0.5, 0.1}), at(moment)))) << "it is a hit";
+    EXPECT_FALSE(sequencer.set_wish(1, later)) << "there is one";
     Sample last = sequencer.sample();
     while (sequencer.running() == 0) {
       last = sequencer.sample();

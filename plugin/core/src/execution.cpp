@@ -103,7 +103,7 @@ Execution::Execution(const Primitive& primitive, const std::vector<Wish>& wishes
 
 void Execution::reinitialise(const Sample& from, double phase, const JoinSettings& join) noexcept {
   join_ = join;
-  begin_phase_ = fade_from_ = phase;
+  begin_phase_ = phase;
   passed_ = 0.0;
   elapsed_ = 0.0;
   stays_ = false;
@@ -111,14 +111,17 @@ void Execution::reinitialise(const Sample& from, double phase, const JoinSetting
   wishes_ = given_;
   for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].live = static_cast<int>(i) < given_;
   begin_from(from, phase);
+  for (int i = 0; i < given_; ++i)
+    if (due_in(slots_[static_cast<std::size_t>(i)].wish) <= 0.0)
+      wishes_hold_ = price_.possible = false;
 }
 
 void Execution::resume(const Sample& from) noexcept {
-  fade_from_ = phase_;
   begin_from(from, phase_);
 }
 
 void Execution::begin_from(const Sample& from, double phase) noexcept {
+  fade_from_ = phase;
   fading_ = false;
   if (stays_)
     weights().setZero();
@@ -129,10 +132,11 @@ void Execution::begin_from(const Sample& from, double phase) noexcept {
   at(added_rate).setZero();
   if (find_from(from, phase, true)) {
     estimate(price_);
+    price_.possible = wishes_hold_;
     return go_on();
   }
   wishes_hold_ = false;
-  for (Slot& slot : slots_) slot.live = false;
+  slots_[refused_].live = false;
   begin_from(from, phase);
 }
 
@@ -196,6 +200,8 @@ void Execution::go_on() noexcept {
 }
 
 const Sample& Execution::remember() noexcept {
+  schedule();
+  pending_before_ = pending();
   before_ << hot_.leftCols<columns>(), change();
   tau_before_ = tau_;
   amplitude_before_ = amplitude_;
@@ -205,7 +211,7 @@ const Sample& Execution::remember() noexcept {
 }
 
 bool Execution::go_on_or_back(const Sample& now) noexcept {
-  if (find_from(now, phase_, false)) return go_on(), true;
+  if (find_from(now, phase_, false) && pending() >= pending_before_) return go_on(), true;
   go_back();
   return false;
 }
@@ -283,10 +289,11 @@ void Execution::step(double dt) noexcept {
     dt -= left;
   }
   const bool pushed = coupled_.coupling && !coupled_.value.isZero(0.0);
-  const int parts = fading_ ? fading_parts : 1;
+  const bool bends = fading_ && basis_.advance(phase_, dt, tau_) > fade_from_;
+  const int parts = bends ? fading_parts : 1;
   for (int i = 0; i < parts; ++i) advance(dt / parts);
   refresh_sample();
-  if (pushed && coupled_.value.isZero(0.0)) wish_anew();
+  if (pushed) after_a_push(dt);
 }
 
 void Execution::advance(double dt) noexcept {
@@ -312,6 +319,7 @@ void Execution::add_fading(double middle) noexcept {
   at(f_middle) += fade(faded(middle)) * at(faded_middle);
   at(f_end) += fade(faded(phase_)) * at(faded_end);
   fading_ = faded(phase_) < 1.0;
+  if (!fading_) change().setZero();
 }
 
 void Execution::set_step(double dt) noexcept {

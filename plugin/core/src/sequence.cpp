@@ -53,6 +53,13 @@ double due_after_entry(const Primitive& primitive, const Switch& until, const En
   return due(until, basis, {primitive.tau, 0.0, phase_of(entry, basis), 0.0});
 }
 
+// The wish that hands over, if there is one.
+const Wish* hit_of(const Sequence::Step& step) {
+  for (const Wish& wish : step.wishes)
+    if (wish.then == Wish::Then::hand_over) return &wish;
+  return nullptr;
+}
+
 // What is wished after the switch would never come.
 void require_in_time(const Sequence::Step& step, const std::string& place) {
   const double switched = due_after_entry(step.primitive, step.until, step.entry);
@@ -98,9 +105,11 @@ Sequence& Sequence::then(Step step) {
   then(std::move(step.primitive));
   try {
     if (steps_.back().primitive.kind == Kind::rhythmic) enter(step.entry);
+    if (step.leave.size() > 0 && step.leave.size() != steps_.back().primitive.dimensions())
+      throw Error(name(steps_.size() - 1), "leave needs an acceleration per coordinate");
     steps_.back().leave = std::move(step.leave);
     for (Wish& one : step.wishes) wish(std::move(one));
-    return until(step.until);
+    return hit_of(steps_.back()) ? *this : until(step.until);
   } catch (const Error&) {
     steps_.pop_back();
     throw;
@@ -111,6 +120,9 @@ Sequence& Sequence::until(Switch when) {
   Step& step = last("until");
   const std::string place = name(steps_.size() - 1);
   require_possible(place, step.primitive, when);
+  const Wish* hit = hit_of(step);
+  if (hit && (hit->when.when != when.when || hit->when.value != when.value))
+    throw Error(place, "hands over at its hit, must have no other switch");
   const double seconds = due_after_entry(step.primitive, when, step.entry);
   if (!(seconds > 0.0))
     throw Error(place, "its switch is due " + std::to_string(seconds) +
@@ -158,11 +170,7 @@ Sequence& Sequence::wish(Wish wish) {
   } catch (const Error& error) {
     throw Error(name(steps_.size() - 1), error.what());
   }
-  const bool hands_over = wishes.back().then == Wish::Then::hand_over;
-  if (hands_over && std::any_of(step.wishes.begin(), step.wishes.end(),
-                                [](const Wish& one) { return one.then == Wish::Then::hand_over; }))
-    throw Error(name(steps_.size() - 1), "is to hand over at two wishes, must be at one");
-  if (hands_over) until(wishes.back().when);
+  if (wishes.back().then == Wish::Then::hand_over) until(wishes.back().when);
   step.wishes = std::move(wishes);
   return *this;
 }

@@ -79,6 +79,9 @@ Sequencer::Sequencer(const Sequence& sequence, const JoinSettings& join, const S
   nothing_runs_ = price();
   nothing_runs_.possible = false;
   due_ = start_delay_;
+  Execution& first = items_.front().execution;
+  const double phase = phase_of(items_.front().entry, first.basis());
+  if (start_delay_ > 0.0 && !std::isnan(phase)) first.reinitialise(start_, phase, join_);
   if (start_delay_ == 0.0) switch_over();
 }
 
@@ -303,9 +306,19 @@ bool Sequencer::set_tau(double tau) noexcept {
   return true;
 }
 
+// What is wished after the switch would never come, unless nothing follows.
+bool Sequencer::in_time(int which, const Wish& wish) const noexcept {
+  if (running_ < 0 || settling_) return false;
+  const double phase = now().phase();
+  const double moment =
+      seam::due(wish.when, now().basis(), {now().tau(), own_time_, phase, phase - entry_phase_});
+  if (wish.then == Wish::Then::hand_over) return !finished_ && moment >= now().last_moment(which);
+  return to_come() == 0 || moment <= due_ + most_slack;
+}
+
 bool Sequencer::set_wish(int which, const Wish& wish) noexcept {
   ++changes_;
-  if (running_ < 0 || settling_ || !now().set_wish(which, wish)) return false;
+  if (!in_time(which, wish) || !now().set_wish(which, wish)) return false;
   if (wish.then == Wish::Then::hand_over && !finished_) {
     item().until = wish.when;
     update_due();
@@ -320,8 +333,7 @@ void Sequencer::drop_wishes() noexcept {
 }
 
 const Price& Sequencer::price_of(int which, const Wish& wish) noexcept {
-  if (running_ >= 0 && !settling_) return now().price_of(which, wish);
-  return nothing_runs_;
+  return in_time(which, wish) ? now().price_of(which, wish) : nothing_runs_;
 }
 
 bool Sequencer::set_rate(double rate, double over) noexcept {

@@ -20,8 +20,17 @@ constexpr int orders = 4;  // y, ẏ, ÿ, y⃛
 constexpr double least_share[orders] = {0.2, 0.2, 0.05,
                                         0.05};  // of a wish's row, outside of those before it
 constexpr double independent = 1e-9;            // likewise of the join's rows
+constexpr double least_ahead = 1e-3;            // of tau: nearer, rows are rounding
 constexpr double over = 1e-9;                   // [s] a moment that is nearer has come
 constexpr double free = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* too_much =
+    "asks too much of the kernels: it is too near to the beginning or to another "
+    "wish, or they contradict "
+    "each other, or weights have lost their hold, or there are too few kernels";
+constexpr const char* after_cycle = "comes after the cycle that is entered";
+constexpr const char* faded_out = "comes after weights have lost their hold";
+constexpr const char* no_table =
+    "cannot be met: there are too many kernels, or kernels or gains are too sharp";
 constexpr double never = std::numeric_limits<double>::infinity();
 
 void assign_values(const Eigen::VectorXd& from, Eigen::VectorXd& to) {
@@ -85,9 +94,28 @@ void Execution::take(const std::vector<Wish>& wishes, const Eigen::VectorXd& lea
   for (const Wish& wish : wishes) {
     const char* why = unusable(wish);
     if (*why != '\0') throw Error("wish " + std::to_string(given_ + 1), why);
+    require_ahead(wish);
+    for (int i = 0; i < given_; ++i)
+      if (wish.then != Wish::Then::go_on &&
+          slots_[static_cast<std::size_t>(i)].wish.then == wish.then)
+        throw Error("wish " + std::to_string(given_ + 1), wish.then == Wish::Then::stay
+                                                              ? "arrives for a second time"
+                                                              : "hands over for a second time");
     assign(given_++, wish);
   }
   wishes_ = given_;
+}
+
+// What can be known before the phase is at which a primitive is entered.
+void Execution::require_ahead(const Wish& wish) const {
+  const std::string place = "wish " + std::to_string(given_ + 1);
+  const bool timed = wish.when.when == Switch::When::after;
+  if (!timed && wish.when.when != Switch::When::cycles) return;
+  if (!(wish.when.value > 0.0))
+    throw Error(place,
+                "its moment is " + shown(wish.when.value) + " after the beginning, must be > 0");
+  const double cycles = timed ? wish.when.value / (2.0 * M_PI * tau_) : wish.when.value;
+  if (kind() == Kind::rhythmic && cycles > 1.0 + over) throw Error(place, after_cycle);
 }
 
 void Execution::assign(int which, const Wish& wish) noexcept {
@@ -110,6 +138,9 @@ const char* Execution::unusable(const Wish& wish) const noexcept {
     if (values->array().isInf().any()) return "has a value that is not finite";
     asks = asks || !values->array().isNaN().all();
   }
+  if (wish.then == Wish::Then::stay &&
+      wish.position.size() + wish.velocity.size() + wish.acceleration.size() > 0)
+    return "arrives at the goal and at rest, must have no values of its own";
   if (!asks) return "wishes nothing, all its values are free";
   if (wish.then == Wish::Then::stay && kind() == Kind::rhythmic)
     return "a rhythmic primitive does not arrive";
@@ -134,8 +165,22 @@ void Execution::schedule() noexcept {
   for (Slot& slot : slots_) {
     const double left = slot.live ? due_in(slot.wish) : 0.0;
     slot.left = left > over ? left : 0.0;
-    if (slot.live && !stays_ && slot.wish.then == Wish::Then::stay) arrival_ = elapsed_ + slot.left;
+    slot.due = elapsed_ + slot.left;
+    if (slot.live && !stays_ && slot.wish.then == Wish::Then::stay) arrival_ = slot.due;
   }
+}
+
+int Execution::pending() const noexcept {
+  return static_cast<int>(std::count_if(slots_.begin(), slots_.end(),
+                                        [](const Slot& slot) { return slot.left > 0.0; }));
+}
+
+double Execution::last_moment(int but) const noexcept {
+  double last = 0.0;
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (static_cast<int>(i) != but && slots_[i].left > 0.0 && slots_[i].due > elapsed_)
+      last = std::max(last, passed_ + slots_[i].due);
+  return last;
 }
 
 // What is wished of a coordinate, its velocity, acceleration or jerk; NaN where it is free.
@@ -173,8 +218,7 @@ bool Execution::refuse(std::size_t i, const char* why) noexcept {
 
 // Whether anything is to come.
 bool Execution::asked() const noexcept {
-  return std::any_of(slots_.begin(), slots_.end(),
-                     [](const Slot& slot) { return slot.left > 0.0; });
+  return pending() > 0;
 }
 
 // Δw, for the join and for all wishes that are to come.
@@ -202,7 +246,11 @@ bool Execution::asks_as(Eigen::Index d, Eigen::Index other) const noexcept {
 // For every wish that is to come, how the motion then answers to the weights, and what it is without them.
 bool Execution::evaluate_rows() noexcept {
   const double from = responses_->at_phase(phase_);
-  if (!responses_->cover(from)) return refuse(0, "comes after weights have lost their hold");
+  const auto first = static_cast<std::size_t>(
+      std::find_if(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.left > 0.0; }) -
+      slots_.begin());
+  if (!responses_->cover(from))
+    return refuse(first, responses_->panels() > 0 ? faded_out : no_table);
   responses_->state(from, begun_, answers_.col(0));
   const double K = gains_.K, D = gains_.D * tau_, square = tau_ * tau_;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -210,9 +258,10 @@ bool Execution::evaluate_rows() noexcept {
     const double left = slots_[i].left;
     const double to = from + left / tau_;
     if (kind() == Kind::rhythmic && phase_ + left / tau_ > begin_phase_ + 2.0 * M_PI * (1.0 + over))
-      return refuse(i, "comes after the cycle that is entered");
+      return refuse(i, after_cycle);
+    if (left < least_ahead * tau_) return refuse(i, too_much);
     if (left > arrival_ - elapsed_ + over) return refuse(i, "comes after the arrival");
-    if (!responses_->cover(to)) return refuse(i, "comes after weights have lost their hold");
+    if (!responses_->cover(to)) return refuse(i, faded_out);
     const auto column = static_cast<Eigen::Index>(orders * i);
     auto rows = rows_.middleCols<orders>(column);
     responses_->rows(from, begun_, to, rows);
@@ -240,10 +289,7 @@ bool Execution::gather(Eigen::Index d) noexcept {
       const auto column = static_cast<Eigen::Index>(orders * i) + order;
       if (std::isnan(wished(i, order, d))) continue;
       if (conditions_.add(rows_.col(column), least_share[order])) continue;
-      return refuse(i,
-                    "asks too much of the kernels: it is too near to the beginning or to another "
-                    "wish, or they contradict "
-                    "each other, or weights have lost their hold, or there are too few kernels");
+      return refuse(i, too_much);
     }
   }
   return true;
@@ -318,7 +364,15 @@ void Execution::keep_worst(Price& price) const noexcept {
   }
 }
 
+// There is one wish that hands over and one that arrives, and they remain so.
 bool Execution::may_set(int which, const Wish& wish) const noexcept {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const bool same = slots_[i].wish.then == wish.then;
+    const bool comes = slots_[i].live && due_in(slots_[i].wish) > over;
+    if (static_cast<int>(i) == which ? comes && !same
+                                     : comes && same && wish.then != Wish::Then::go_on)
+      return false;
+  }
   return which >= 0 && which <= wishes_ && which < static_cast<int>(slots_.size()) && !stays_ &&
          *unusable(wish) == '\0' && due_in(wish) > over;
 }
@@ -340,6 +394,8 @@ bool Execution::set_wish(int which, const Wish& wish) noexcept {
 
 const Price& Execution::price_of(int which, const Wish& wish) noexcept {
   offer_.possible = false;
+  offer_.deviation.setZero();
+  offer_.acceleration.setZero();
   if (!may_set(which, wish)) return offer_;
   Slot& slot = slots_[static_cast<std::size_t>(which)];
   spare_ = slot;
@@ -360,29 +416,39 @@ void Execution::drop_wishes() noexcept {
 void Execution::arrive() noexcept {
   refresh_sample();
   const Sample& now = state();
+  if (coupled_.coupling && !coupled_.value.isZero(0.0)) wishes_hold_ = false;
   stays_ = true;
   weights().setZero();
   find_from(now, phase_, false);
   go_on();
 }
 
-// After a coupling has let go.
+// While a coupling acts nothing is met; after it has let go the wishes are solved anew.
+void Execution::after_a_push(double dt) noexcept {
+  for (const Slot& slot : slots_)
+    if (slot.left > 0.0 && slot.due <= elapsed_ && slot.due > elapsed_ - dt) wishes_hold_ = false;
+  if (coupled_.value.isZero(0.0)) wish_anew();
+}
+
+// Without those that can no longer be met.
 void Execution::wish_anew() noexcept {
-  schedule();
-  if (!asked()) return;
   const Sample& now = remember();
-  if (!go_on_or_back(now)) wishes_hold_ = false;
+  if (pending_before_ == 0 || go_on_or_back(now)) return;
+  wishes_hold_ = false;
+  slots_[refused_].live = false;
+  wish_anew();
 }
 
 void Execution::require_possible(double phase, const JoinSettings& join) {
   Sample start = sample_;
+  refusal_ = "";
   reinitialise(start, phase, join);
-  if (!wishes_hold_) throw Error("wish " + std::to_string(refused_ + 1), refusal_);
+  if (*refusal_ != '\0') throw Error("wish " + std::to_string(refused_ + 1), refusal_);
   for (int i = 0; i < given_; ++i) {
-    const Slot& slot = slots_[static_cast<std::size_t>(i)];
-    if (slot.left > 0.0) continue;
-    throw Error("wish " + std::to_string(i + 1), "its moment is " + shown(due_in(slot.wish)) +
-                                                     " s after the beginning, must be > 0");
+    const double left = due_in(slots_[static_cast<std::size_t>(i)].wish);
+    if (!(left > over))
+      throw Error("wish " + std::to_string(i + 1),
+                  "its moment is " + shown(left) + " s after the beginning, must be > 0");
   }
 }
 

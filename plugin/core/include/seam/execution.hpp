@@ -52,7 +52,8 @@ class Responses;
 /// primitive, a faded phase) its row is there with 0 on the right: wishes then leave the forcing as it is at that moment. So
 /// all methods keep continuous what they keep without wishes. A row of which less than a fifth of the length
 /// (of accelerations and jerks a twentieth) lies outside of what those before it span asks for too much (a point too near in time, a faded phase, wishes that contradict each other,
-/// more of them than kernels): then the call is refused, and changes nothing. Every change on the way solves the system anew for the wishes
+/// more of them than kernels): then the call is refused, and changes nothing. That bounds each row and not the motion, of which the Price
+/// tells. Wishes need a table of responses, which more than about 140 kernels, very narrow ones and extreme gains do not have: they are refused, too. Every change on the way solves the system anew for the wishes
 /// that are still to come.
 ///
 /// A coupling (see couple) takes the motion off what was solved; once it has let go, the system is solved anew.
@@ -72,7 +73,7 @@ class Execution {
   void require_possible(double phase, const JoinSettings& join);
 
   /// Enters the primitive: continues from a state at a phase of it, which the caller vouches for: D finite values each (the jerk
-  /// counts for dmp2j alone), 0 < x ≤ 1 or φ finite. Wishes that cannot be met from there are dropped (see wishes_hold).
+  /// counts for dmp2j alone), 0 < x ≤ 1 or φ finite. A wish that cannot be met from there, beside those before it, is dropped (see wishes_hold).
   void reinitialise(const Sample& from, double phase, const JoinSettings& join) noexcept;
   /// Continues the primitive from another state where it is, with the weights as learned; likewise.
   void resume(const Sample& from) noexcept;
@@ -90,11 +91,13 @@ class Execution {
   /// Takes back all wishes that are to come; the motion stays what it is.
   void drop_wishes() noexcept;
 
+  /// [s] since the primitive began until the last moment that is still to come, but for one wish; 0 without any.
+  double last_moment(int but) const noexcept;
   int wishes() const noexcept { return wishes_; }  // so far, those that are over included
-  /// False where wishes are not met: the primitive was entered, or resumed, in a state from where they could not be, or a coupling
-  /// let go too late.
+  /// False where a wish is not met: it was dropped when the primitive was entered or resumed, or when a coupling let go; or a
+  /// coupling acted at its moment.
   bool wishes_hold() const noexcept { return wishes_hold_; }
-  /// What the wishes cost with which the primitive was entered; zero without wishes.
+  /// What the wishes cost with which the primitive was entered, or resumed; zero without wishes, not possible where one was dropped.
   const Price& price() const noexcept { return price_; }
   /// What a wish would cost if it were made now; nothing is changed.
   /// @return  valid until the next question
@@ -146,13 +149,17 @@ class Execution {
   struct Slot {
     Wish wish;
     bool live = false;
-    double left = 0.0;  // [s] until its moment; ≤ 0 where it is over or not wished any more
+    double left =
+        0.0;  // [s] until its moment, as of `schedule`; 0 where it is over or not wished any more
+    double due = 0.0;  // [s] of elapsed_
   };
   void make_room(int stride);
   void take(const std::vector<Wish>& wishes, const Eigen::VectorXd& leave);
+  void require_ahead(const Wish& wish) const;
   void assign(int which, const Wish& wish) noexcept;
   double due_in(const Wish& wish) const noexcept;
   void schedule() noexcept;
+  int pending() const noexcept;
   bool may_set(int which, const Wish& wish) const noexcept;
   const char* unusable(const Wish& wish) const noexcept;
   bool refuse(std::size_t i, const char* why) noexcept;
@@ -169,6 +176,7 @@ class Execution {
   void keep_worst(Price& price) const noexcept;
   void arrive() noexcept;
   void wish_anew() noexcept;
+  void after_a_push(double dt) noexcept;
 
   bool weights_hold() const noexcept;
   void evaluate_regressor() noexcept;
@@ -274,6 +282,7 @@ class Execution {
   Eigen::MatrixXd before_;  // what a change is taken back to, as the scalars
   double tau_before_ = 1.0, amplitude_before_ = 1.0, fade_from_before_ = 1.0;
   bool fading_before_ = false;
+  int pending_before_ = 0;
   Price price_, offer_;  // at entry, of what was asked about
   std::size_t refused_ = 0;
   const char* refusal_ = "";

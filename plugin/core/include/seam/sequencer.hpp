@@ -72,18 +72,18 @@ class Sequencer {
   /// Makes or moves a wish of what runs now (see Execution and Wish), e.g. 30 times a second as a camera sees it. One that is to hand over
   /// moves the switch, too.
   /// @param which  its index among the primitive's wishes, those of its sequence first; wishes(): one more
-  /// @return  false, and no change, where it cannot be, or nothing runs
+  /// @return  false, and no change, where it cannot be, nothing runs, or its moment is after the switch
   bool set_wish(int which, const Wish& wish) noexcept;
   /// Takes back all wishes of what runs now that are to come; the motion stays what it is.
   void drop_wishes() noexcept;
   /// What a wish of what runs now would cost if it were made now; nothing is changed. Not possible where nothing runs.
   /// @return  valid until the next change or question
   const Price& price_of(int which, const Wish& wish) noexcept;
-  /// What the wishes of what runs now, or runs first, cost; likewise.
+  /// What the wishes cost with which what runs now was entered, or what runs first is going to be.
   const Price& price() const noexcept { return first_or_now().price(); }
   /// Wishes of what runs now, or runs first, so far.
   int wishes() const noexcept { return first_or_now().wishes(); }
-  /// False where they were dropped, since the primitive began in a state from where they could not be met.
+  /// False where one of them is not met (see Execution).
   bool wishes_hold() const noexcept { return first_or_now().wishes_hold(); }
 
   /// Adds an acceleration to the motion from now on (see Coupling), also to what is appended later; several add up. While
@@ -166,6 +166,7 @@ class Sequencer {
   void require_joinable(const Sequence& sequence) const;
   void forget_played();
   void push(const Sequence& sequence);
+  bool in_time(int which, const Wish& wish) const noexcept;
   double due() const noexcept;
   void update_due() noexcept;
   bool near_goal() const noexcept;
