@@ -21,7 +21,7 @@ struct Event {
   double value = 0.0;        // tau [s], amplitude or rate
   double over = 0.0;         // [s] in which the rate changes
   Eigen::VectorXd velocity;  // of a wish, likewise, or empty
-  double when = 0.0;         // [s] since the run began: a wish's moment
+  double when = 0.0;         // [s] since the run began: a wish's moment, at rate 1
   int which = -1;            // index of the wish that is moved, or made; -1: one more
 
   /// False where the sequencer refuses it (an amplitude of a discrete primitive, say).
