@@ -29,6 +29,7 @@ LEFT_OUT_HEADERS = {
 LEFT_OUT = {
     "Basis::forcing": "reads padded memory; use regressor(phase) @ weights",
     "Companions": "keywords of measure",
+    "Execution::last_moment": "a part of the sequencer",
     "Followers": "RobotModel.place_followers does it",
     "JointReference": "JointSpace and TaskSpace have its methods",
     "NoJump::NoJump": "made by TorqueIsContinuousAt and its like",

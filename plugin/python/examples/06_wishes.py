@@ -58,4 +58,11 @@ for name, row in prices.items():
 cost.set(xlabel="wished ahead [s]", xscale="log", yscale="log", title="deviation [rad]")
 peak.set(xlabel="wished ahead [s]", xscale="log", yscale="log", title="greatest acceleration [rad/s²]")
 cost.legend(fontsize=8)
+for axes in (cost, peak):
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("")
+    axes.set_xticks([0.05, 0.1, 0.2, 0.5])
+cost.set_yticks([0.1, 0.2, 0.5, 1.0])
+peak.set_yticks([10, 20, 50, 100, 200])
 figure.savefig("wishes.png", dpi=110)
