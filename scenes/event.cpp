@@ -1,25 +1,13 @@
 #include "scenes/event.hpp"
 
 #include <algorithm>
-#include <limits>
 
-#include "plugin/files/src/yaml_reader.hpp"
+#include "plugin/files/src/sequence_entry.hpp"
 #include <seam/noise.hpp>
 
 namespace seam {
 
 namespace {
-
-Eigen::VectorXd read_goal(const YamlEntry& entry, const std::vector<std::string>& coordinates) {
-  Eigen::VectorXd goal = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(coordinates.size()),
-                                                   std::numeric_limits<double>::quiet_NaN());
-  for (const auto& [name, value] : entry.entries()) {
-    const auto found = std::find(coordinates.begin(), coordinates.end(), name);
-    if (found == coordinates.end()) value.fail("is not among the sequence's coordinates");
-    goal(found - coordinates.begin()) = value.number();
-  }
-  return goal;
-}
 
 constexpr const char* kinds = "must have one of goal, tau, amplitude, rate, hand_over, pass, hit";
 constexpr double most_events = 1e5;
@@ -30,7 +18,7 @@ void read_wish(const YamlEntry& entry, const std::vector<std::string>& coordinat
   if (event.what == Event::What::pass || event.what == Event::What::hit) {
     event.when = entry.at("when").number();
     if (event.when <= event.at) entry.at("when").fail("must be later than at");
-    if (velocity) event.velocity = read_goal(*velocity, coordinates);
+    if (velocity) event.velocity = read_values(*velocity, coordinates);
     if (const auto which = entry.find("wish")) event.which = which->count(0);
     return;
   }
@@ -51,13 +39,13 @@ Event read_event(const YamlEntry& entry, const std::vector<std::string>& coordin
     if (++given > 1) entry.fail(kinds);
     return value;
   };
-  if (const auto goal = is("goal", Event::What::goal)) event.goal = read_goal(*goal, coordinates);
+  if (const auto goal = is("goal", Event::What::goal)) event.goal = read_values(*goal, coordinates);
   if (const auto tau = is("tau", Event::What::tau)) event.value = tau->positive();
   if (const auto size = is("amplitude", Event::What::amplitude)) event.value = size->number();
   if (const auto rate = is("rate", Event::What::rate)) event.value = rate->not_negative();
   if (const auto now = is("hand_over", Event::What::hand_over)) now->choice({"now"});
-  if (const auto pass = is("pass", Event::What::pass)) event.goal = read_goal(*pass, coordinates);
-  if (const auto hit = is("hit", Event::What::hit)) event.goal = read_goal(*hit, coordinates);
+  if (const auto pass = is("pass", Event::What::pass)) event.goal = read_values(*pass, coordinates);
+  if (const auto hit = is("hit", Event::What::hit)) event.goal = read_values(*hit, coordinates);
   if (given == 0) entry.fail(kinds);
   read_wish(entry, coordinates, event);
   if (event.what == Event::What::rate)
@@ -72,10 +60,10 @@ void watch(const YamlEntry& entry, const std::vector<std::string>& coordinates, 
            std::vector<Event>& events) {
   entry.only({"from", "to", "every", "goal", "velocity", "noise"});
   const std::vector<double> times = picture_times(entry);
-  const Eigen::VectorXd goal = read_goal(entry.at("goal"), coordinates);
+  const Eigen::VectorXd goal = read_values(entry.at("goal"), coordinates);
   Eigen::VectorXd velocity = Eigen::VectorXd::Zero(goal.size());
   if (const auto moving = entry.find("velocity")) {
-    const Eigen::VectorXd named = read_goal(*moving, coordinates);
+    const Eigen::VectorXd named = read_values(*moving, coordinates);
     velocity = named.array().isNaN().select(velocity, named);
   }
   const auto noise = entry.find("noise");

@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"EventBeforeTheRun", "settle: 1.0", "events: [{at: -1, tau: 1}]",
                 ":19: key \"at\": -1, must be >= 0"},
         BadFile{"GoalOfNoCoordinate", "settle: 1.0", "events: [{at: 1, goal: {x: 1}}]",
-                ":19: key \"x\": is not among the sequence's coordinates"},
+                ":19: key \"x\": is not among the primitives' coordinates"},
         BadFile{"RateWithoutATime", "settle: 1.0", "events: [{at: 1, rate: 0.5}]",
                 ":19: key \"events\": needs the key \"over\""},
         BadFile{"TimeOfNoRate", "settle: 1.0", "events: [{at: 1, tau: 0.5, over: 1}]",

@@ -13,4 +13,8 @@ namespace seam {
 SequenceFile read_sequence(const YamlEntry& entry,
                            const std::function<void(const Primitive&)>& check = nullptr);
 
+/// Values of some coordinates by their names; NaN where there is none.
+/// @throws Error  names file, line and key: one that is not among the coordinates, a value that is not a finite number
+Eigen::VectorXd read_values(const YamlEntry& entry, const std::vector<std::string>& coordinates);
+
 }  // namespace seam

@@ -115,17 +115,6 @@ Primitives read_primitives(const YamlEntry& entry, const Reference& given) {
   return primitives;
 }
 
-// Values of coordinates by name; NaN where there is none.
-Eigen::VectorXd read_values(const YamlEntry& entry, const std::vector<std::string>& names) {
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()), NAN);
-  for (const auto& [name, value] : entry.entries()) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) value.fail("is not among the primitives' coordinates");
-    values(found - names.begin()) = value.number();
-  }
-  return values;
-}
-
 // An orientation that is wished takes the place of rx, ry and rz.
 void read_orientation(const YamlEntry& entry, const Primitive& primitive, Wish& wish) {
   const auto& names = primitive.coordinates;
@@ -209,15 +198,11 @@ void read_step(const YamlEntry& step, const Primitives& primitives, const Check&
 Sample read_start(const YamlEntry& entry, const Primitive& first) {
   entry.only({"position", "velocity", "acceleration", "jerk"});
   Sample start = Sample::at_rest(first.start_position);
-  const auto& names = first.coordinates;
   for (const Part& part : parts) {
     const auto given = entry.find(part.name);
     if (!given) continue;
-    for (const auto& [name, value] : given->entries()) {
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found == names.end()) value.fail("is not among the primitives' coordinates");
-      (start.*part.values)(found - names.begin()) = value.number();
-    }
+    const Eigen::VectorXd named = read_values(*given, first.coordinates);
+    start.*part.values = named.array().isNaN().select(start.*part.values, named);
   }
   return start;
 }
@@ -332,6 +317,16 @@ std::string steps_text(const SequenceFile& file) {
 }
 
 }  // namespace
+
+Eigen::VectorXd read_values(const YamlEntry& entry, const std::vector<std::string>& names) {
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()), NAN);
+  for (const auto& [name, value] : entry.entries()) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) value.fail("is not among the primitives' coordinates");
+    values(found - names.begin()) = value.number();
+  }
+  return values;
+}
 
 Sample SequenceFile::start_state() const {
   return start ? *start : sequence.start_state();
