@@ -754,6 +754,17 @@ TEST(SequenceFile, RefusesCouplingsOfJoints) {
           "tool's x y z, or x y");
 }
 
+TEST_F(ReferenceOfASequence, IsWhatAnOrientationThatIsWishedIsTurnedFrom) {
+  const std::string path = write({"half"});
+  const std::string text = test::read_file(path);
+  const SequenceFile file = read_sequence(folder_.write(
+      "wish.yaml", replaced(text, "{play: half}",
+                            "{play: half, pass: [{orientation: [0, 0, 1, 0], at: 0.5}]}")));
+  const Wish& wish = file.sequence.steps()[0].wishes[0];
+  const double angle = M_PI - 2.0 * std::atan2(0.6, 0.8);  // about z, from the reference
+  EXPECT_LE((wish.position - Eigen::Vector3d(0.0, 0.0, angle)).norm(), 1e-12);
+}
+
 class SequenceFileRefuses : public testing::TestWithParam<BadFile> {};
 
 TEST_P(SequenceFileRefuses, WithFileLineAndKey) {

@@ -34,6 +34,23 @@ bool same_bits(const Recording& a, const Recording& b) {
          same_bits(a.torque, b.torque);
 }
 
+// What is wished on the way is there when it is to be, on the arm, and is made and moved without a step in torque.
+TEST(LineScene, PassesAndHitsWhereAnEventWishesIt) {
+  const Scene scene = Scene::read(
+      line, {"events=[{at: 0.4, pass: {E1: 1.0}, when: 0.85}, {at: 0.5, pass: {E1: 1.1}, "
+             "when: 0.9, wish: 0}, {at: 1.3, hit: {E1: 1.2}, velocity: {E1: -0.2}, when: 1.8}]"});
+  for (const Join method : all_joins) {
+    const Recording run = play(scene, method, 1e-3);
+    EXPECT_NEAR(run.q(900, 3), 1.1, 1e-9) << to_string(method);
+    EXPECT_NEAR(run.q(1800, 3), 1.2, 1e-9) << to_string(method);
+    EXPECT_NEAR(run.qd(1800, 3), -0.2, 0.02) << to_string(method);
+    for (const RecordedJoin& join : run.joins) {
+      const bool wished = join.time == 0.4 || join.time == 0.5 || join.time == 1.3;
+      EXPECT_LE(wished ? join.acceleration_jump : 0.0, 1e-9) << to_string(method);
+    }
+  }
+}
+
 // The bars of the comparison, at every join, the start included.
 TEST(LineScene, TorqueStepsWithDmp2AndNotWithTheOthers) {
   const std::vector<seam::Run> runs = compared(line, 2);
@@ -171,6 +188,12 @@ INSTANTIATE_TEST_SUITE_P(
                 ":19: key \"at\": -1, must be >= 0"},
         BadFile{"GoalOfNoCoordinate", "settle: 1.0", "events: [{at: 1, goal: {x: 1}}]",
                 ":19: key \"x\": is not among the primitives' coordinates"},
+        BadFile{"WishWithoutItsMoment", "settle: 1.0", "events: [{at: 1, pass: {E1: 1}}]",
+                ":19: key \"events\": needs the key \"when\""},
+        BadFile{"WishForThePast", "settle: 1.0", "events: [{at: 1, hit: {E1: 1}, when: 0.5}]",
+                ":19: key \"when\": must be later than at"},
+        BadFile{"VelocityOfNoWish", "settle: 1.0", "events: [{at: 1, tau: 1, velocity: {E1: 1}}]",
+                ":19: key \"velocity\": goes with pass and hit alone"},
         BadFile{"RateWithoutATime", "settle: 1.0", "events: [{at: 1, rate: 0.5}]",
                 ":19: key \"events\": needs the key \"over\""},
         BadFile{"TimeOfNoRate", "settle: 1.0", "events: [{at: 1, tau: 0.5, over: 1}]",
