@@ -85,39 +85,14 @@ const char* const arm_urdf = R"(<robot name="r"><link name="base"/>
 <link name="l"><inertial><origin xyz="0 0 0.2"/><mass value="1"/><inertia ixx="0.05" iyy="0.05" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
 <joint name="j" type="revolute"><parent link="base"/><child link="l"/><axis xyz="0 1 0"/>
 <limit lower="-3" upper="3" effort="100" velocity="5"/><dynamics damping="2" friction="0.5"/></joint></robot>)";
-const char* const arm_scene = R"(format: seam-scene 1
-title: One joint
-robot: {urdf: r.urdf}
-sequence:
-  start_after: 0.1
-  primitives: {up: {demonstration: up.csv, kernels: 5}}
-  steps: [{play: up}]
-figure: j
-)";
 
 // A scene with a robot of its own in a folder of its own.
-struct OwnArm {
-  OwnArm() {
-    folder.write("r.urdf", arm_urdf);
-    std::string demonstration = "time,j\n";
-    for (int k = 0; k <= 100; ++k) {
-      const double s = k / 100.0;
-      demonstration += std::to_string(s) + "," +
-                       std::to_string(s * s * s * (10.0 + s * (-15.0 + 6.0 * s))) + "\n";
-    }
-    folder.write("up.csv", demonstration);
-    path = folder.write("one.yaml", arm_scene);
-  }
-  Scene read(const std::vector<std::string>& overrides = {}) const {
-    return Scene::read(path, overrides);
-  }
+struct OwnArm : test::OneJoint {
+  OwnArm() : OneJoint(arm_urdf) {}
   double error(const std::vector<std::string>& overrides = {}) const {
     const Scene played = read(overrides);
     return measure(play(played, Join::dmp3, played.dt)).tracking_max_rad;
   }
-
-  TempFolder folder;
-  std::string path;
 };
 
 TEST(Arm, HasTheFrictionOfItsUrdfAndItsControllerKnowsIt) {

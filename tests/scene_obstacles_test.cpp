@@ -20,35 +20,12 @@ const char* const arm_urdf = R"(<robot name="r"><link name="base"/>
 <collision><origin xyz="0 0 0.4"/><geometry><sphere radius="0.05"/></geometry></collision></link>
 <joint name="j" type="revolute"><parent link="base"/><child link="l"/><axis xyz="0 1 0"/>
 <limit lower="-3" upper="3" effort="100" velocity="5"/></joint></robot>)";
-const char* const arm_scene = R"(format: seam-scene 1
-title: One joint
-robot: {urdf: r.urdf}
-sequence:
-  start_after: 0.1
-  primitives: {up: {demonstration: up.csv, kernels: 5}}
-  steps: [{play: up}]
-figure: j
-settle: 0.2
-)";
 
-struct Swing {
-  Swing() {
-    folder.write("r.urdf", arm_urdf);
-    std::string demonstration = "time,j\n";
-    for (int k = 0; k <= 100; ++k) {
-      const double s = k / 100.0;
-      demonstration += std::to_string(s) + "," +
-                       std::to_string(s * s * s * (10.0 + s * (-15.0 + 6.0 * s))) + "\n";
-    }
-    folder.write("up.csv", demonstration);
-    path = folder.write("one.yaml", arm_scene);
-  }
+struct Swing : test::OneJoint {
+  Swing() : OneJoint(arm_urdf, "settle: 0.2\n") {}
   Scene read(const std::string& obstacles) const {
-    return Scene::read(path, {"obstacles=[" + obstacles + "]"});
+    return OneJoint::read({"obstacles=[" + obstacles + "]"});
   }
-
-  TempFolder folder;
-  std::string path;
 };
 
 Vector3d end_of_rod(const Recording& played, Eigen::Index row) {

@@ -51,6 +51,11 @@ class CouplingSum : public Coupling {
   std::vector<std::shared_ptr<Coupling>> parts_;
 };
 
+// When a switch or a wish is due [s] of what runs, since it began.
+double moment_of(const Switch& when, const Execution& now, double own_time, double entry_phase) {
+  return due(when, now.basis(), {now.tau(), own_time, now.phase(), now.phase() - entry_phase});
+}
+
 bool usable(const Sample& at, int dimensions) {
   for (const Eigen::VectorXd* part : {&at.position, &at.velocity, &at.acceleration, &at.jerk})
     if (part->size() != dimensions || !part->allFinite()) return false;
@@ -182,9 +187,7 @@ double Sequencer::due() const noexcept {
 
 // After what moves the switch: entering, a change of tau.
 void Sequencer::update_due() noexcept {
-  const double phase = now().phase();
-  due_ =
-      seam::due(item().until, now().basis(), {now().tau(), own_time_, phase, phase - entry_phase_});
+  due_ = moment_of(item().until, now(), own_time_, entry_phase_);
 }
 
 bool Sequencer::near_goal() const noexcept {
@@ -309,9 +312,7 @@ bool Sequencer::set_tau(double tau) noexcept {
 // What is wished after the switch would never come, unless nothing follows.
 bool Sequencer::in_time(int which, const Wish& wish) const noexcept {
   if (running_ < 0 || settling_) return false;
-  const double phase = now().phase();
-  const double moment =
-      seam::due(wish.when, now().basis(), {now().tau(), own_time_, phase, phase - entry_phase_});
+  const double moment = moment_of(wish.when, now(), own_time_, entry_phase_);
   if (wish.then == Wish::Then::hand_over) return !finished_ && moment >= now().last_moment(which);
   return to_come() == 0 || moment <= due_ + most_slack;
 }
